@@ -1,0 +1,8 @@
+"""Arms: links in D-H conventions, forward kinematics in batches, and the twist of every parameter."""
+
+from boresight.arm.arm import Arm as Arm
+from boresight.arm.arm import Joint as Joint
+from boresight.arm.conventions import LINK_NUMBERS as LINK_NUMBERS
+from boresight.arm.motions import Chain as Chain
+from boresight.arm.motions import Linearisation as Linearisation
+from boresight.arm.motions import Motion as Motion

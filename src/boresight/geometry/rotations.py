@@ -1,0 +1,64 @@
+"""Rotations: roll-pitch-yaw about fixed axes, skew matrices, and the angle between two orientations.
+
+Roll-pitch-yaw is ROS's and URDF's: R = Rz(yaw) Ry(pitch) Rx(roll).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+
+
+def axis_rotation(axis: int, angle_rad: Float[np.ndarray, "*batch"] | float) -> Float[np.ndarray, "*batch 3 3"]:
+    """Returns the rotation about coordinate axis 0, 1 or 2 (x, y, z) by an angle [rad]."""
+    angle = np.asarray(angle_rad, dtype=float)
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    rotation = np.zeros((*angle.shape, 3, 3))
+    rotation[..., axis, axis] = 1.0
+    rotation[..., i, i] = rotation[..., j, j] = np.cos(angle)
+    rotation[..., j, i] = np.sin(angle)
+    rotation[..., i, j] = -np.sin(angle)
+    return rotation
+
+
+def rpy_matrix(rpy_rad: Float[np.ndarray, "3"] | tuple[float, float, float]) -> Float[np.ndarray, "3 3"]:
+    """Returns R = Rz(yaw) Ry(pitch) Rx(roll) of (roll, pitch, yaw) [rad]."""
+    roll, pitch, yaw = (float(angle) for angle in rpy_rad)
+    return axis_rotation(2, yaw) @ axis_rotation(1, pitch) @ axis_rotation(0, roll)
+
+
+def matrix_rpy(rotation: Float[np.ndarray, "3 3"]) -> tuple[float, float, float]:
+    """Returns (roll, pitch, yaw) [rad] of a rotation, pitch in [-pi/2, pi/2]; roll is 0 at |pitch| = pi/2."""
+    horizontal = float(np.hypot(rotation[0, 0], rotation[1, 0]))
+    pitch = float(np.arctan2(-rotation[2, 0], horizontal))
+    if horizontal < 1e-12:
+        return 0.0, pitch, float(np.arctan2(-rotation[0, 1], rotation[1, 1]))
+    roll = float(np.arctan2(rotation[2, 1], rotation[2, 2]))
+    return roll, pitch, float(np.arctan2(rotation[1, 0], rotation[0, 0]))
+
+
+def rotation_angle(
+    first: Float[np.ndarray, "*batch 3 3"], second: Float[np.ndarray, "*batch 3 3"]
+) -> Float[np.ndarray, "*batch"]:
+    """Returns the angle [rad] that turns one orientation into the other."""
+    relative = np.swapaxes(first, -1, -2) @ second
+    sine = 0.5 * np.linalg.norm(
+        np.stack(
+            [
+                relative[..., 2, 1] - relative[..., 1, 2],
+                relative[..., 0, 2] - relative[..., 2, 0],
+                relative[..., 1, 0] - relative[..., 0, 1],
+            ],
+            axis=-1,
+        ),
+        axis=-1,
+    )
+    cosine = 0.5 * (np.trace(relative, axis1=-2, axis2=-1) - 1.0)
+    return np.arctan2(sine, cosine)
+
+
+def nearest_rotation(matrix: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
+    """Returns the rotation nearest to a matrix in the Frobenius norm (Kabsch 1976; Umeyama 1991)."""
+    u, _, vt = np.linalg.svd(matrix)
+    flip = np.diag([1.0, 1.0, float(np.sign(np.linalg.det(u @ vt)))])
+    return u @ flip @ vt

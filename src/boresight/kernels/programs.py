@@ -1,0 +1,114 @@
+"""What the compiled loops work on: an arm, its planes and its readings, as flat arrays.
+
+A `Program` says how a member's numbers become links and planes; `Rows` are the readings. Both are built
+once a calibration (`boresight.sensing.compiled`) and never change.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+LANES = 32
+"""Members go through the loops in tiles of this many, their numbers side by side, so that vector code needs
+no remainder and a tile's links stay in the first-level cache. Tried on one core (150 members, 35 readings,
+six links; ns a range): 16 lanes 21, 32 lanes 6.6, 64 lanes 7.1. Vectorised over readings instead, the loop
+reaches 4.9 at 1,000 readings, but 20 at 35, where the start of each short loop dominates."""
+
+TURN, SHIFT = 0, 1
+"""An elementary motion turns about, or shifts along, one coordinate axis."""
+
+RANGE, OFFSET = 0, 1
+"""A readout is the range along the sensor's +z to the carried plane, or the plane's offset: the signed
+distance of the sensor's origin from the plane."""
+
+FIXED = -1
+"""In place of a parameter's row: this number does not move."""
+
+MISSED = 1e4
+"""The error [m] charged for a beam that looks away from its plane: missing one reading fewer is worth more
+than anything the other ranges can do."""
+
+
+class Program(NamedTuple):
+    """How a member, a column of a (parameters, members) array of corrections, becomes links and planes.
+
+    Segment 0 leads from the world to the first joint's axis, segment i from joint i's axis to the next
+    (the last one to the sensor). Within a segment, motions run in order.
+
+    Attributes:
+        segment_start: (joints + 2,) first motion of each segment, and their number.
+        motion_kind: (motions,) `TURN` or `SHIFT`.
+        motion_axis: (motions,) 0, 1, 2 for x, y, z.
+        motion_value: (motions,) nominal angle [rad] or length [m].
+        motion_parameter: (motions,) row of the member's correction, or `FIXED`.
+        prismatic: (joints,) whether the joint shifts along z rather than turning about it.
+        plane: (planes, 4) nominal unit normal and offset [m] in the world.
+        plane_parameter: (planes, 4) rows of the corrections of n_x, n_y, n_z and the offset, or `FIXED`.
+        plane_dropped: (planes,) the component of the normal that follows from the other two.
+        prior_weight: (parameters,) weight of each squared correction in the cost.
+    """
+
+    segment_start: np.ndarray
+    motion_kind: np.ndarray
+    motion_axis: np.ndarray
+    motion_value: np.ndarray
+    motion_parameter: np.ndarray
+    prismatic: np.ndarray
+    plane: np.ndarray
+    plane_parameter: np.ndarray
+    plane_dropped: np.ndarray
+    prior_weight: np.ndarray
+
+
+class Rows(NamedTuple):
+    """The scalar readings, one a row.
+
+    Attributes:
+        first: (rows, joints) cos q of a revolute joint, the displacement [m] of a prismatic one.
+        second: (rows, joints) sin q of a revolute joint, unused of a prismatic one.
+        plane: (rows,) the plane a reading is about.
+        readout: (rows,) `RANGE` or `OFFSET`.
+        reading: (rows,) measured value [m].
+        weight: (rows,) weight of the squared residual in the cost.
+    """
+
+    first: np.ndarray
+    second: np.ndarray
+    plane: np.ndarray
+    readout: np.ndarray
+    reading: np.ndarray
+    weight: np.ndarray
+
+
+class Workspace(NamedTuple):
+    """Memory of one thread, allocated once a search.
+
+    Attributes:
+        links: (segments * 12 * LANES,) link constants of a tile: R column by column, then t [m].
+        planes: (planes * 4 * LANES,) planes of a tile, as seen from the first joint's axis.
+        state: (4 * LANES,) the carried plane (n_x, n_y, n_z, f) of a tile.
+        costs: (LANES,) cost of a tile.
+    """
+
+    links: np.ndarray
+    planes: np.ndarray
+    state: np.ndarray
+    costs: np.ndarray
+
+
+def workspace(program: Program) -> Workspace:
+    """Returns fresh memory for the loops over a program."""
+    segments = len(program.segment_start) - 1
+    return Workspace(
+        links=np.empty(segments * 12 * LANES),
+        planes=np.empty(max(len(program.plane), 1) * 4 * LANES),
+        state=np.empty(4 * LANES),
+        costs=np.empty(LANES),
+    )
+
+
+def padded(count: int) -> int:
+    """Returns the number of lanes that hold `count` members in whole tiles."""
+    return -(-count // LANES) * LANES

@@ -1,0 +1,85 @@
+"""A cell and its readings written out as the flat arrays of the compiled loops."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Float
+
+from boresight.arm import Chain, Motion
+from boresight.geometry import Plane
+from boresight.kernels.programs import FIXED, SHIFT, TURN, Program, Rows
+from boresight.sensing.cell import Cell
+from boresight.sensing.readings import Readings
+
+
+def compile_program(cell: Cell, free: Sequence[str], prior_weight: Float[np.ndarray, "free"]) -> Program:
+    """Returns how corrections of the free parameters, in that order, become links and planes.
+
+    Args:
+        cell: the nominal cell.
+        free: names of the parameters that move.
+        prior_weight: weight in the cost of each squared correction.
+    """
+    place = {name: row for row, name in enumerate(free)}
+    segments, prismatic = _segments(cell.chain)
+    kept = [[m for m in segment if m.value != 0.0 or m.parameter in place] for segment in segments]
+    motions = [motion for segment in kept for motion in segment]
+    planes = _planes(cell)
+    return Program(
+        segment_start=np.cumsum([0] + [len(segment) for segment in kept]),
+        motion_kind=np.array([TURN if m.turns else SHIFT for m in motions], dtype=np.int64),
+        motion_axis=np.array([m.axis for m in motions], dtype=np.int64),
+        motion_value=np.array([m.value for m in motions], dtype=float),
+        motion_parameter=np.array([place.get(m.parameter or "", FIXED) for m in motions], dtype=np.int64),
+        prismatic=np.array(prismatic, dtype=np.bool_),
+        plane=np.array([[*plane.normal, plane.offset] for _, plane in planes]),
+        plane_parameter=np.array([_plane_rows(name, plane, place) for name, plane in planes], dtype=np.int64),
+        plane.dropped=np.array([plane.dropped for _, plane in planes], dtype=np.int64),
+        prior_weight=np.ascontiguousarray(prior_weight, dtype=float),
+    )
+
+
+def compile_rows(cell: Cell, readings: Readings, weight: Float[np.ndarray, "rows channels"]) -> Rows:
+    """Returns the readings channel by channel, each with the weight of its squared residual in the cost."""
+    count, channels = readings.values.shape
+    angle = np.array([motion.turns for motion in cell.chain.motions if motion.joint is not None])
+    order = [motion.joint for motion in cell.chain.motions if motion.joint is not None]
+    moved = readings.joints[:, order]
+    own = np.broadcast_to(readings.target[:, None], (count, channels))
+    plane = np.array([channel if readout.plane else 0 for channel, readout in enumerate(cell.sensor.readouts)])
+    is_own = np.array([readout.plane is None for readout in cell.sensor.readouts])
+    first, second = np.where(angle, np.cos(moved), moved), np.where(angle, np.sin(moved), 0.0)
+    return Rows(
+        first=np.ascontiguousarray(np.repeat(first, channels, axis=0)),
+        second=np.ascontiguousarray(np.repeat(second, channels, axis=0)),
+        plane=np.where(is_own, own, plane).ravel().astype(np.int64),
+        readout=np.tile([readout.kind for readout in cell.sensor.readouts], count).astype(np.int64),
+        reading=readings.values.ravel().astype(float),
+        weight=np.ascontiguousarray(weight, dtype=float).ravel(),
+    )
+
+
+def _segments(chain: Chain) -> tuple[list[list[Motion]], list[bool]]:
+    """Splits a chain at its joints: each joint's own motion opens a segment."""
+    segments: list[list[Motion]] = [[]]
+    prismatic = []
+    for motion in chain.motions:
+        if motion.joint is not None:
+            assert motion.axis == 2, "the compiled loop's joints move about or along z"
+            segments.append([])
+            prismatic.append(not motion.turns)
+        segments[-1].append(motion)
+    return segments, prismatic
+
+
+def _planes(cell: Cell) -> list[tuple[str, Plane]]:
+    """The planes that are carried: the targets, or the planes the sensor itself is read against."""
+    if cell.sensor.needs_target:
+        return list(cell.targets.items())
+    return [("", readout.plane) for readout in cell.sensor.readouts if readout.plane is not None]
+
+
+def _plane_rows(name: str, plane: Plane, place: dict[str, int]) -> list[int]:
+    return [place.get(f"{name}.{number}", FIXED) for number in ("normal_x", "normal_y", "normal_z", "offset")]

@@ -1,0 +1,53 @@
+"""A laser ranger: the distance along its beam to a plane (paper, eq. 6 to 9)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from jaxtyping import Float
+
+from boresight.geometry import Plane, range_to_plane
+from boresight.kernels.programs import RANGE
+from boresight.sensing.sensor import Readout, Response
+
+
+@dataclass(frozen=True, slots=True)
+class LaserRanger:
+    """A ranger whose beam leaves the tool frame's origin along its +z.
+
+    Attributes:
+        noise_std: standard deviation of one reading [m].
+        repeats: readings averaged in a row.
+    """
+
+    type: ClassVar[str] = "laser_ranger"
+    channels: ClassVar[tuple[str, ...]] = ("range",)
+    needs_target: ClassVar[bool] = True
+    readouts: ClassVar[tuple[Readout, ...]] = (Readout(RANGE),)
+
+    noise_std: float
+    repeats: int = 1
+
+    def predict(self, poses: Float[np.ndarray, "rows 4 4"], target: Plane | None) -> Float[np.ndarray, "rows 1"]:
+        """Returns the ranges [m] to the plane; NaN where the beam looks away from it."""
+        assert target is not None
+        return range_to_plane(poses[:, :3, 3], poses[:, :3, 2], target)[:, None]
+
+    def respond(self, poses: Float[np.ndarray, "rows 4 4"], target: Plane | None) -> Response:
+        """Returns the ranges and their derivatives.
+
+        With x = p + h b where the beam meets the plane, a twist (v, w) of the tool moves x by v + w × x, and
+        n·x + f must stay 0, so dh = -(n·v + (x × n)·w) / (n·b): the plane's wrench at the hit point. In the
+        same way dh/dn = -x / (n·b) and dh/df = -1 / (n·b).
+        """
+        assert target is not None
+        normal = np.asarray(target.normal)
+        beam = poses[:, :3, 2]
+        values = self.predict(poses, target)
+        hit = poses[:, :3, 3] + values * beam
+        slope = -1.0 / (beam @ normal)[:, None]
+        by_twist = slope * np.hstack([np.broadcast_to(normal, hit.shape), np.cross(hit, normal)])
+        by_plane = slope * np.hstack([hit, np.ones((len(hit), 1))])
+        return Response(values, by_twist[:, None, :], by_plane[:, None, :])
