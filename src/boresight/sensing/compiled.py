@@ -36,7 +36,7 @@ def compile_program(cell: Cell, free: Sequence[str], prior_weight: Float[np.ndar
         prismatic=np.array(prismatic, dtype=np.bool_),
         plane=np.array([[*plane.normal, plane.offset] for _, plane in planes]),
         plane_parameter=np.array([_plane_rows(name, plane, place) for name, plane in planes], dtype=np.int64),
-        plane.dropped=np.array([plane.dropped for _, plane in planes], dtype=np.int64),
+        plane_dropped=np.array([plane.dropped for _, plane in planes], dtype=np.int64),
         prior_weight=np.ascontiguousarray(prior_weight, dtype=float),
     )
 
