@@ -8,7 +8,7 @@ runs in the compiled search.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, Protocol
+from typing import ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
@@ -44,6 +44,7 @@ class Readout:
     plane: Plane | None = None
 
 
+@runtime_checkable
 class Sensor(Protocol):
     """A kind of sensor; its own frame is the tool frame (beam along +z where it has one).
 
