@@ -1,7 +1,6 @@
 """Members turned into links and planes: the pass over parameters, a tile of members at a time.
 
-The inner loops run over the lanes of a tile; everything they touch is a slice that starts at lane 0, since
-an index that might be negative, to the compiler's knowledge, turns vector loads into gathers (7x slower).
+The inner loops run over the lanes of a tile; see `sweeping` for what makes them vector code.
 """
 
 from __future__ import annotations
@@ -13,99 +12,111 @@ from boresight.kernels.compiling import compiled
 from boresight.kernels.programs import FIXED, LANES, TURN
 from boresight.kernels.trigonometry import sincos
 
-
-@compiled
-def _clear(link):
-    for entry in range(12):
-        value = 1.0 if entry in (0, 4, 8) else 0.0
-        lane = link[entry * LANES : (entry + 1) * LANES]
-        for i in range(LANES):
-            lane[i] = value
+_LANES = np.uint64(LANES)
+_LINK = np.uint64(12 * LANES)
+_COLUMN = np.uint64(3 * LANES)
+_ORIGIN = np.uint64(9 * LANES)
 
 
 @compiled
-def _turn(link, axis, value, correction):
-    """Turns a segment's frames about one of their axes: mixes the other two columns."""
-    u_start, v_start = 3 * ((axis + 1) % 3) * LANES, 3 * ((axis + 2) % 3) * LANES
-    u, v = link[u_start : u_start + 3 * LANES], link[v_start : v_start + 3 * LANES]
-    for i in range(LANES):
-        s, c = sincos(value + correction[i])
-        for k in range(3):
-            u[k * LANES + i], v[k * LANES + i] = turned(s, c, u[k * LANES + i], v[k * LANES + i])
-
-
-@compiled
-def _shift(link, axis, value, correction):
-    """Shifts a segment's frames along one of their axes."""
-    start = 3 * axis * LANES
-    column, origin = link[start : start + 3 * LANES], link[9 * LANES : 12 * LANES]
-    for k in range(3):
-        for i in range(LANES):
-            origin[k * LANES + i] += (value + correction[i]) * column[k * LANES + i]
-
-
-@compiled
-def build_links(program, members, start, zero, links):
+def build_links(program, members, start, links, scratch):
     """Writes the constant transform of every segment for one tile.
 
     Args:
         program: the `Program`.
         members: (parameters, lanes) corrections.
         start: the tile's first lane.
-        zero: (LANES,) zeros, the correction of a fixed motion.
-        links: (segments * 12 * LANES,) out.
+        links: (segments * 12 * LANES,) out: R column by column, then t [m].
+        scratch: (3 * LANES,) work space.
     """
+    first = np.uint64(start)
+    sine, cosine = _LANES, _LANES + _LANES
     for segment in range(program.segment_start.shape[0] - 1):
-        link = links[segment * 12 * LANES : (segment + 1) * 12 * LANES]
-        _clear(link)
+        link = np.uint64(segment) * _LINK
+        for i in range(_LINK):
+            links[link + i] = 0.0
+        for i in range(_LANES):
+            links[link + i] = links[link + i + _COLUMN + _LANES] = links[link + i + _ORIGIN - _LANES] = 1.0
         for motion in range(program.segment_start[segment], program.segment_start[segment + 1]):
-            parameter = program.motion_parameter[motion]
-            correction = zero if parameter == FIXED else members[parameter, start : start + LANES]
-            axis, value = program.motion_axis[motion], program.motion_value[motion]
+            parameter, value = program.motion_parameter[motion], program.motion_value[motion]
+            axis = program.motion_axis[motion]
+            for i in range(_LANES):
+                scratch[i] = value
+            if parameter != FIXED:
+                for i in range(_LANES):
+                    scratch[i] += members[parameter, first + i]
             if program.motion_kind[motion] == TURN:
-                _turn(link, axis, value, correction)
+                for i in range(_LANES):
+                    scratch[sine + i], scratch[cosine + i] = sincos(scratch[i])
+                u = link + np.uint64((axis + 1) % 3) * _COLUMN
+                v = link + np.uint64((axis + 2) % 3) * _COLUMN
+                for _ in range(3):
+                    for i in range(_LANES):
+                        links[u + i], links[v + i] = turned(
+                            scratch[sine + i], scratch[cosine + i], links[u + i], links[v + i]
+                        )
+                    u += _LANES
+                    v += _LANES
             else:
-                _shift(link, axis, value, correction)
+                column, origin = link + np.uint64(axis) * _COLUMN, link + _ORIGIN
+                for i in range(_COLUMN):
+                    links[origin + i] += scratch[i % _LANES] * links[column + i]
 
 
 @compiled
-def moved_plane(program, members, lane, plane):
-    """Returns (n_x, n_y, n_z, f) of one plane for one member, of unit normal.
+def _moved_component(program, plane, component, members, start, out):
+    """Writes one of n_x, n_y, n_z, f of a plane, nominal plus correction."""
+    parameter = program.plane_parameter[plane, component]
+    value = program.plane[plane, component]
+    if parameter == FIXED:
+        for i in range(LANES):
+            out[i] = value
+    else:
+        correction = members[parameter, start : start + LANES]
+        for i in range(LANES):
+            out[i] = value + correction[i]
 
-    Two components move and the dropped one follows from |n| = 1 (paper, eq. 19), keeping its sign; where the
-    two alone are longer than 1, it is 0 and they are scaled back.
+
+@compiled
+def _complete(first, second, dropped, sign):
+    """Writes the dropped component of a normal, which follows from |n| = 1 (paper, eq. 19).
+
+    Where the other two alone are longer than 1, it is 0 and they are scaled back.
     """
-    nominal, parameter = program.plane[plane], program.plane_parameter[plane]
-    dropped = program.plane_dropped[plane]
-    x, y, z, f = nominal[0], nominal[1], nominal[2], nominal[3]
-    if parameter[3] != FIXED:
-        f += members[parameter[3], lane]
-    if parameter[0] == FIXED and parameter[1] == FIXED and parameter[2] == FIXED:
-        return x, y, z, f
-    x = 0.0 if dropped == 0 else x + (members[parameter[0], lane] if parameter[0] != FIXED else 0.0)
-    y = 0.0 if dropped == 1 else y + (members[parameter[1], lane] if parameter[1] != FIXED else 0.0)
-    z = 0.0 if dropped == 2 else z + (members[parameter[2], lane] if parameter[2] != FIXED else 0.0)
-    squares = x * x + y * y + z * z
-    rest = np.sqrt(max(1.0 - squares, 0.0))
-    if nominal[dropped] < 0.0:
-        rest = -rest
-    scale = 1.0 / np.sqrt(max(squares, 1.0))
-    x = rest if dropped == 0 else x * scale
-    y = rest if dropped == 1 else y * scale
-    z = rest if dropped == 2 else z * scale
-    return x, y, z, f
+    for i in range(LANES):
+        squares = first[i] * first[i] + second[i] * second[i]
+        scale = 1.0 / np.sqrt(max(squares, 1.0))
+        dropped[i] = sign * np.sqrt(max(1.0 - squares, 0.0))
+        first[i], second[i] = scale * first[i], scale * second[i]
+
+
+@compiled
+def _into_base(base, plane):
+    """Carries a plane from the world to the first joint's axis, in place."""
+    for i in range(LANES):
+        x, y, z, f = plane[i], plane[LANES + i], plane[2 * LANES + i], plane[3 * LANES + i]
+        plane[i] = along(x, y, z, base[i], base[LANES + i], base[2 * LANES + i])
+        plane[LANES + i] = along(x, y, z, base[3 * LANES + i], base[4 * LANES + i], base[5 * LANES + i])
+        plane[2 * LANES + i] = along(x, y, z, base[6 * LANES + i], base[7 * LANES + i], base[8 * LANES + i])
+        plane[3 * LANES + i] = moved_offset(x, y, z, f, base[9 * LANES + i], base[10 * LANES + i], base[11 * LANES + i])
 
 
 @compiled
 def build_planes(program, members, start, links, planes):
-    """Writes every plane as seen from the first joint's axis, for one tile."""
+    """Writes every plane as seen from the first joint's axis, for one tile whose links are built."""
     base = links[: 12 * LANES]
     for plane in range(program.plane.shape[0]):
         out = planes[plane * 4 * LANES : (plane + 1) * 4 * LANES]
-        for i in range(LANES):
-            x, y, z, f = moved_plane(program, members, start + i, plane)
-            for k in range(3):
-                axis = 3 * k * LANES + i
-                out[k * LANES + i] = along(x, y, z, base[axis], base[axis + LANES], base[axis + 2 * LANES])
-            t = 9 * LANES + i
-            out[3 * LANES + i] = moved_offset(x, y, z, f, base[t], base[t + LANES], base[t + 2 * LANES])
+        for component in range(4):
+            lanes = out[component * LANES : (component + 1) * LANES]
+            _moved_component(program, plane, component, members, start, lanes)
+        dropped = program.plane_dropped[plane]
+        first, second = min((dropped + 1) % 3, (dropped + 2) % 3), max((dropped + 1) % 3, (dropped + 2) % 3)
+        if program.plane_parameter[plane, first] != FIXED or program.plane_parameter[plane, second] != FIXED:
+            _complete(
+                out[first * LANES : (first + 1) * LANES],
+                out[second * LANES : (second + 1) * LANES],
+                out[dropped * LANES : (dropped + 1) * LANES],
+                -1.0 if program.plane[plane, dropped] < 0.0 else 1.0,
+            )
+        _into_base(base, out)

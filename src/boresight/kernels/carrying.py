@@ -18,7 +18,8 @@ from boresight.kernels.programs import MISSED
 @compiled
 def turned(s, c, u, v):
     """Returns two components after a turn in their plane: of a normal seen after a joint's turn about z, or
-    of a rotation's two columns that a turn about the third mixes (paper, eq. 1)."""
+    of a rotation's two columns that a turn about the third mixes (paper, eq. 1).
+    """
     return c * u + s * v, c * v - s * u
 
 

@@ -90,12 +90,14 @@ class Workspace(NamedTuple):
         planes: (planes * 4 * LANES,) planes of a tile, as seen from the first joint's axis.
         state: (4 * LANES,) the carried plane (n_x, n_y, n_z, f) of a tile.
         costs: (LANES,) cost of a tile.
+        scratch: (3 * LANES,) amounts of a motion, their sines and cosines.
     """
 
     links: np.ndarray
     planes: np.ndarray
     state: np.ndarray
     costs: np.ndarray
+    scratch: np.ndarray
 
 
 def workspace(program: Program) -> Workspace:
@@ -106,6 +108,7 @@ def workspace(program: Program) -> Workspace:
         planes=np.empty(max(len(program.plane), 1) * 4 * LANES),
         state=np.empty(4 * LANES),
         costs=np.empty(LANES),
+        scratch=np.empty(3 * LANES),
     )
 
 

@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from jaxtyping import Float
 
 from boresight.arm import Chain, Motion
 from boresight.geometry import Plane
-from boresight.kernels.programs import FIXED, SHIFT, TURN, Program, Rows
+from boresight.kernels.breeding import draws_for
+from boresight.kernels.evolving import evolve_generations
+from boresight.kernels.programs import FIXED, SHIFT, TURN, Program, Rows, padded, workspace
+from boresight.kernels.sweeping import sweep
+from boresight.search import Box, DifferentialEvolution, Population, Staleness, Stops, Stretch
 from boresight.sensing.cell import Cell
 from boresight.sensing.readings import Readings
 
 
-def compile_program(cell: Cell, free: Sequence[str], prior_weight: Float[np.ndarray, "free"]) -> Program:
+def compile_program(cell: Cell, free: Sequence[str], prior_weight: Float[np.ndarray, free]) -> Program:
     """Returns how corrections of the free parameters, in that order, become links and planes.
 
     Args:
@@ -83,3 +88,58 @@ def _planes(cell: Cell) -> list[tuple[str, Plane]]:
 
 def _plane_rows(name: str, plane: Plane, place: dict[str, int]) -> list[int]:
     return [place.get(f"{name}.{number}", FIXED) for number in ("normal_x", "normal_y", "normal_z", "offset")]
+
+
+class CompiledCost:
+    """The cost of corrections: weighted squared residuals plus weighted squared corrections.
+
+    Callable on (members, parameters), and able to run whole generations (`boresight.search.evolve`).
+    """
+
+    def __init__(self, program: Program, rows: Rows) -> None:
+        self._program = program
+        self._rows = rows
+        self._work = workspace(program)
+
+    def __call__(self, members: Float[np.ndarray, "members parameters"]) -> Float[np.ndarray, members]:
+        """Returns the cost of every member."""
+        lanes = np.zeros((members.shape[1], padded(len(members))))
+        lanes[:, : len(members)] = members.T
+        costs = np.empty(lanes.shape[1])
+        sweep(self._program, self._rows, self._work, lanes, costs)
+        return costs[: len(members)]
+
+    def advance(
+        self,
+        settings: DifferentialEvolution,
+        box: Box,
+        population: Population,
+        staleness: Staleness,
+        stops: Stops,
+        generations: int,
+    ) -> Stretch:
+        """Returns the population some generations later, or at the first stop."""
+        count = len(population.costs)
+        lanes = population.lanes.copy()
+        costs = np.full(lanes.shape[1], np.inf)
+        costs[:count] = population.costs
+        history = np.empty((generations, 2))
+        done, stale, reference = evolve_generations(
+            self._program,
+            self._rows,
+            self._work,
+            settings.breeding(box),
+            np.uint64(population.key),
+            lanes,
+            costs,
+            count,
+            np.empty_like(lanes),
+            np.empty_like(costs),
+            draws_for(count),
+            population.generation,
+            (staleness.generations, staleness.reference),
+            (stops.cost, stops.patience, stops.improvement),
+            history,
+        )
+        after = replace(population, lanes=lanes, costs=costs[:count].copy(), generation=population.generation + done)
+        return Stretch(after, Staleness(stale, reference), history[:done])

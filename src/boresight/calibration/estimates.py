@@ -1,0 +1,83 @@
+"""Every parameter as believed and as found, with its standard deviation and where its value comes from."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from jaxtyping import Float
+
+from boresight.calibration.problem import Problem
+from boresight.calibration.result import Estimate
+from boresight.geometry import Frame
+from boresight.inference import sources
+from boresight.sensing import Cell
+from boresight.sensing.cell import FRAME_NUMBERS
+from boresight.units import UNIT_OF
+
+_TURNS = FRAME_NUMBERS[3:]
+
+
+def estimates_of(
+    problem: Problem,
+    identified: Cell,
+    covariance: Float[np.ndarray, "free free"],
+    believed: Cell,
+    unknown: frozenset[str],
+) -> tuple[Estimate, ...]:
+    """Returns an estimate of every parameter that is free or belongs to the arm or a target.
+
+    Turns of a frame are listed as its roll, pitch and yaw, their deviations carried over from the turns about
+    its own axes that were fitted.
+
+    Args:
+        problem: what was fitted.
+        identified: the cell found.
+        covariance: posterior covariance of the free corrections.
+        believed: the cell as the files gave it.
+        unknown: parameters the files called unknown.
+    """
+    std = dict(zip(problem.names, np.sqrt(np.diag(covariance)), strict=True))
+    source = dict(zip(problem.names, sources(np.sqrt(np.diag(covariance)), problem.prior_std), strict=True))
+    for name, frame in (("base", identified.base), ("mount", identified.mount)):
+        std |= _rpy_std(name, frame, problem.names, covariance)
+    listed = []
+    for parameter in problem.cell.parameters:
+        owner = parameter.name.split(".")[0]
+        if owner in ("base", "mount") and parameter.name not in std:
+            continue
+        found, given = identified.values[parameter.name], believed.values[parameter.name]
+        estimate = Estimate(
+            name=parameter.name,
+            unit=UNIT_OF[parameter.quantity],
+            nominal=given,
+            identified=found,
+            correction=found - given,
+            std=float(std.get(parameter.name, 0.0)),
+            source=source.get(parameter.name, "fixed"),
+        )
+        listed.append(replace(estimate, nominal=None, correction=None) if parameter.name in unknown else estimate)
+    return tuple(listed)
+
+
+def _rpy_std(
+    name: str, frame: Frame, free: tuple[str, ...], covariance: Float[np.ndarray, "free free"]
+) -> dict[str, float]:
+    """Returns the deviations of a frame's roll, pitch and yaw, if any of its turns was free."""
+    columns = [free.index(f"{name}.{turn}") for turn in _TURNS if f"{name}.{turn}" in free]
+    if not columns:
+        return {}
+    turned = [place for place, turn in enumerate(_TURNS) if f"{name}.{turn}" in free]
+    step = 1e-6
+    slopes = np.empty((3, len(turned)))
+    for column, place in enumerate(turned):
+        forward, backward = (
+            frame.moved((0.0, 0.0, 0.0), tuple(sign * step if k == place else 0.0 for k in range(3)))
+            for sign in (1.0, -1.0)
+        )
+        change = np.subtract(forward.rpy, backward.rpy)
+        slopes[:, column] = (np.mod(change + np.pi, 2 * np.pi) - np.pi) / (2 * step)
+    carried = slopes @ covariance[np.ix_(columns, columns)] @ slopes.T
+    return {
+        f"{name}.{turn}": float(np.sqrt(carried[k, k])) for k, turn in enumerate(_TURNS) if f"{name}.{turn}" in free
+    }

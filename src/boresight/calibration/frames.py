@@ -1,0 +1,86 @@
+"""Where the base and the sensor stand when nobody has measured it: found from the data, without a guess.
+
+Evolution searches the unknown frames alone, geometry nominal, over every orientation and as far as the
+readings could come from; least squares then finishes. The same search serves every sensor and every
+combination of unknown numbers, which closed forms do not.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from boresight.calibration.campaign import Freedom
+from boresight.calibration.problem import Problem
+from boresight.errors import InputError
+from boresight.inference import listed
+from boresight.search import DifferentialEvolution, Stops, evolve, least_squares
+from boresight.sensing import Cell, Readings
+
+_ROWS = 60
+"""Rows that the evolution looks at: more would not make frames plainer."""
+
+_RUNS = 6
+"""Independent runs; the search ends early when two agree."""
+
+
+def find_frames(cell: Cell, readings: Readings, unknown: frozenset[str], seed: int) -> Cell:
+    """Returns the cell with its unknown frames where the readings put them, geometry nominal.
+
+    Args:
+        cell: the nominal cell, unknown numbers at zero.
+        readings: measured values.
+        unknown: the unknown parameters of `base` and `mount`.
+        seed: of the evolution.
+
+    Raises:
+        InputError: no frames explain the readings at all.
+    """
+    names = tuple(name for name in cell.index if name in unknown)
+    if not names:
+        return cell
+    few = readings.chosen(np.unique(np.linspace(0, len(readings) - 1, min(_ROWS, len(readings))).astype(int)))
+    widths = {"angle": np.pi, "length": _span(cell, readings)}
+    quantity = {parameter.name: parameter.quantity for parameter in cell.parameters}
+    freedoms = tuple(Freedom(name, widths[quantity[name]], None) for name in names)
+    noise = np.full(few.values.shape, 1e-3)
+    best = None
+    for run in range(_RUNS):
+        wide = Problem(cell, few, freedoms, noise)
+        rough = evolve(
+            wide.cost, wide.box, DifferentialEvolution(population=20 * len(names)), Stops(400), seed=seed, run=run
+        )
+        candidate = _settle(wide.fitted(rough.best), few, names, noise)
+        if best is not None and abs(candidate[1] - best[1]) <= 1e-3 * best[1] + 1e-9:
+            best = min(best, candidate, key=lambda found: found[1])
+            break
+        best = candidate if best is None or candidate[1] < best[1] else best
+    assert best is not None
+    found = best[0]
+    if np.isnan(found.predict(few.joints, few.target)).mean() > 0.5:
+        raise InputError(
+            f"no placement of {listed(names)} explains the readings: with the best one found, most beams look away "
+            "from their planes; check the joint columns, their units and the planes"
+        )
+    return _settle(found, readings, names, np.full(readings.values.shape, 1e-3))[0]
+
+
+def _settle(cell: Cell, readings: Readings, names: tuple[str, ...], noise: np.ndarray) -> tuple[Cell, float]:
+    """Returns the frames after least squares from where they are, and the cost."""
+    for _ in range(2):
+        problem = Problem(cell, readings, tuple(Freedom(name, None, None) for name in names), noise)
+        found = least_squares(
+            problem.residual,
+            problem.jacobian,
+            np.zeros(len(names)),
+            scale=np.ones(len(names)),
+            lower=np.full(len(names), -np.inf),
+            upper=np.full(len(names), np.inf),
+        )
+        cell = problem.fitted(found.best)
+    return cell, found.cost
+
+
+def _span(cell: Cell, readings: Readings) -> float:
+    """Returns how far [m] an unknown origin may lie: the arm's reach and the farthest thing measured."""
+    offsets = [abs(plane.offset) for plane in cell.targets.values()]
+    return 1.5 * (cell.arm.reach + float(np.max(np.abs(readings.values))) + max(offsets, default=0.0))

@@ -1,0 +1,77 @@
+"""Which parameters are free: those the campaign names, or the most that the data can see."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from boresight.arm import LINK_NUMBERS, Arm
+from boresight.calibration.campaign import Campaign, Freedom
+from boresight.inference import select_visible
+from boresight.sensing import Cell, Readings
+from boresight.units import Quantity
+
+USUAL_WITHIN: dict[Quantity, float] = {"angle": 0.05, "length": 0.02, "number": 0.02}
+"""Half-width of the search [rad, m, 1] where the campaign names no parameters: several times the errors that
+assembly, transport and temperature leave on arms of a metre or two."""
+
+NEARLY_PARALLEL = math.radians(5.0)
+"""Consecutive axes closer than this are parallel: their common normal, and so d, is not defined well enough,
+and beta stands in for it (Hayati & Mirmirani 1985; paper, eq. 2)."""
+
+
+def freedoms_of(campaign: Campaign, cell: Cell) -> tuple[Freedom, ...]:
+    """Returns the free parameters of a campaign, unknown frames first.
+
+    Args:
+        campaign: what was asked for.
+        cell: its cell, with unknown frames where they were found.
+    """
+    frames = tuple(Freedom(name, None, None) for name in cell.index if name in campaign.unknown - campaign.fixed)
+    if campaign.freedoms is not None:
+        asked = {f.parameter: f for f in campaign.freedoms if f.parameter not in campaign.fixed | campaign.unknown}
+        return frames + tuple(asked[name] for name in cell.index if name in asked)
+    assert campaign.readings is not None
+    return _visible(cell, campaign.readings, frames, campaign.fixed)
+
+
+def link_candidates(arm: Arm) -> list[str]:
+    """Returns the link parameters that can be independent, the more physical first.
+
+    Every theta, a and alpha; d, or beta in its place where the joint's axis is nearly parallel to the next.
+    """
+    standing_in = {name for name, parallel in zip(arm.joint_names, _parallel(arm), strict=True) if parallel}
+    chosen = []
+    for number in LINK_NUMBERS:
+        for joint in arm.joints:
+            if number == "d" and joint.name in standing_in and joint.type == "revolute":
+                continue
+            if number == "beta" and joint.name not in standing_in:
+                continue
+            chosen.append(f"{joint.name}.{number}")
+    return chosen
+
+
+def _parallel(arm: Arm) -> list[bool]:
+    """Returns for each joint whether the next axis (standard) or the one before (modified) is nearly parallel."""
+    count = len(arm.joints)
+    related = range(count - 1) if arm.convention == "standard-dh" else range(1, count)
+    return [
+        i in related and abs(math.sin(joint.alpha)) < math.sin(NEARLY_PARALLEL) for i, joint in enumerate(arm.joints)
+    ]
+
+
+def _visible(cell: Cell, readings: Readings, frames: tuple[Freedom, ...], fixed: frozenset[str]) -> tuple[Freedom, ...]:
+    """Returns the frames and every link parameter that shows something the ones before it do not."""
+    usual = {p.name: USUAL_WITHIN[p.quantity] for p in cell.parameters}
+    links = [name for name in link_candidates(cell.arm) if name not in fixed]
+    names = [freedom.parameter for freedom in frames] + links
+    columns = [cell.index[name] for name in names]
+    _, jacobian = cell.linearise(readings.joints, readings.target)
+    scaled = jacobian[:, :, columns] * [usual[name] for name in names] / readings.std[:, :, None]
+    flat = np.nan_to_num(scaled.reshape(-1, len(names)), nan=0.0)
+    chosen = {names[i] for i in select_visible(flat, list(range(len(names))))}
+    return frames + tuple(
+        Freedom(name, usual[name], usual[name] / math.sqrt(3.0)) for name in cell.index if name in chosen & set(links)
+    )

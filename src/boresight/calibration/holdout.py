@@ -1,0 +1,79 @@
+"""Errors on rows that were not fitted: a validation file, or cross-validation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from boresight.calibration.problem import Problem
+from boresight.calibration.result import ErrorSummary, Residuals
+from boresight.calibration.solve import refine, rms
+from boresight.sensing import Cell, Readings
+
+FOLDS = 5
+
+
+@dataclass(frozen=True)
+class HeldOut:
+    """Sizes of errors on held-out rows.
+
+    Attributes:
+        method: how the rows were held out.
+        before: (rows,) error sizes [m], geometry nominal and unknown frames fitted; NaN where a beam misses.
+        after: (rows,) error sizes [m], identified.
+    """
+
+    method: str
+    before: Float[np.ndarray, rows]
+    after: Float[np.ndarray, rows]
+
+    @property
+    def residuals(self) -> Residuals:
+        """These errors, summarised over the rows that both models can predict."""
+        return summarise(self.method, self.before, self.after)
+
+
+def on_validation_rows(nominal: Cell, identified: Cell, rows: Readings) -> HeldOut:
+    """Returns the errors on rows kept for validation."""
+    return HeldOut("validation rows", error_sizes(nominal, rows), error_sizes(identified, rows))
+
+
+def by_cross_validation(problem: Problem, x: Float[np.ndarray, parameters], seed: int) -> HeldOut:
+    """Returns each row's error under a fit to the other folds' rows.
+
+    Every fold's fit starts at the final one, which decides the optimum's neighbourhood but not the optimum.
+
+    Args:
+        problem: the final problem.
+        x: its solution.
+        seed: of the assignment of rows to folds.
+    """
+    count = len(problem.readings)
+    order = np.random.Generator(np.random.Philox(seed)).permutation(count)
+    fold = np.empty(count, dtype=int)
+    fold[order] = np.arange(count) % min(FOLDS, count)
+    after = np.empty(count)
+    for number in range(min(FOLDS, count)):
+        trained = problem.on(np.flatnonzero(fold != number))
+        held = np.flatnonzero(fold == number)
+        fitted = trained.fitted(refine(trained, x).best)
+        after[held] = error_sizes(fitted, problem.readings.chosen(held))
+    return HeldOut(f"{FOLDS}-fold cross-validation", error_sizes(problem.cell, problem.readings), after)
+
+
+def error_sizes(cell: Cell, rows: Readings) -> Float[np.ndarray, rows]:
+    """Returns the size [m] of each row's error: of a range, or the length of a position's error vector."""
+    return np.linalg.norm(cell.predict(rows.joints, rows.target) - rows.values, axis=1)
+
+
+def summarise(method: str, before: Float[np.ndarray, rows], after: Float[np.ndarray, rows]) -> Residuals:
+    """Returns RMS and maximum of error sizes over the rows that both models can predict."""
+    both = np.isfinite(before) & np.isfinite(after)
+    missed = int(np.count_nonzero(~np.isfinite(after)))
+    return Residuals(method, int(np.count_nonzero(both)), missed, _size(before[both]), _size(after[both]))
+
+
+def _size(errors: Float[np.ndarray, rows]) -> ErrorSummary:
+    return ErrorSummary(rms(errors), float(np.max(errors, initial=0.0)) if len(errors) else float("nan"))

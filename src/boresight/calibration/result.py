@@ -1,0 +1,162 @@
+"""What a calibration found, as values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from boresight.calibration.campaign import SetAside
+from boresight.calibration.solve import Solution, Solver
+from boresight.sensing import Cell
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """One parameter, as it was believed and as it was found.
+
+    Attributes:
+        name: the parameter.
+        unit: m, rad or 1.
+        nominal: the value the files gave; None where they said it was unknown.
+        identified: the value found.
+        correction: identified minus nominal.
+        std: standard deviation of the identified value; 0 where it was held.
+        source: whether the value comes from the `data`, from the `prior`, or was `fixed`.
+    """
+
+    name: str
+    unit: str
+    nominal: float | None
+    identified: float
+    correction: float | None
+    std: float
+    source: str
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorSummary:
+    """Size of a set of errors [m].
+
+    Attributes:
+        rms: root mean square.
+        max: largest.
+    """
+
+    rms: float
+    max: float
+
+
+@dataclass(frozen=True, slots=True)
+class Residuals:
+    """Errors of one set of rows: of ranges, or the lengths of position error vectors.
+
+    Attributes:
+        method: where the rows come from: `calibration rows`, `validation rows`, `5-fold cross-validation`.
+        count: rows whose reading could be predicted.
+        missed: rows whose beam, as predicted after calibration, looks away from its plane.
+        before: geometry nominal, unknown frames fitted.
+        after: identified.
+    """
+
+    method: str
+    count: int
+    missed: int
+    before: ErrorSummary
+    after: ErrorSummary
+
+
+@dataclass(frozen=True, slots=True)
+class Outlier:
+    """A row whose residual does not fit with the others.
+
+    Attributes:
+        line: its line in the observations file.
+        residual_m: measured minus predicted, or the length of the error vector [m].
+        ratio: its size in standard deviations of such a residual.
+    """
+
+    line: int
+    residual_m: float
+    ratio: float
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """Whether to use the result.
+
+    Attributes:
+        accepted: whether held-out errors fell for certain and no search bound is active.
+        reasons: one sentence each, that a person can act on.
+    """
+
+    accepted: bool
+    reasons: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Unseen:
+    """A combination of free parameters that changes no reading.
+
+    Attributes:
+        parameters: which.
+        words: what that means.
+    """
+
+    parameters: tuple[str, ...]
+    words: str
+
+
+@dataclass(frozen=True)
+class Result:
+    """The outcome of a calibration.
+
+    Attributes:
+        name: of the campaign.
+        cell: the identified cell.
+        nominal: the cell with geometry nominal and unknown frames fitted.
+        verdict: whether to use it.
+        estimates: every parameter.
+        free: number of free parameters.
+        rank: number of directions the readings see.
+        unseen: directions they do not.
+        calibration: errors of the rows that were fitted.
+        validation: errors of rows that were not.
+        outliers: rows that stand out.
+        errors: (rows, channels) predicted minus measured [m], before and after.
+        stated_std: median stated standard deviation of a row's value [m].
+        model_std: standard deviation [m] of what the model leaves unexplained.
+        solution: how the search went.
+        solver: how it was set.
+        covariance: (free, free) posterior covariance of the corrections.
+        free_names: the free parameters.
+        set_aside: rows that were not used.
+        warnings: what a person should look at.
+        notes: choices a person should know.
+        inputs: SHA-256 by file name.
+    """
+
+    name: str
+    cell: Cell
+    nominal: Cell
+    verdict: Verdict
+    estimates: tuple[Estimate, ...]
+    free: int
+    rank: int
+    unseen: tuple[Unseen, ...]
+    calibration: Residuals
+    validation: Residuals
+    outliers: tuple[Outlier, ...]
+    errors: Mapping[str, Float[np.ndarray, "rows channels"]]
+    stated_std: float
+    model_std: float
+    solution: Solution
+    solver: Solver
+    covariance: Float[np.ndarray, "free free"]
+    free_names: tuple[str, ...]
+    set_aside: tuple[SetAside, ...]
+    warnings: tuple[str, ...]
+    notes: tuple[str, ...]
+    inputs: Mapping[str, str]

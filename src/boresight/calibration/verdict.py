@@ -1,0 +1,104 @@
+"""Whether to use a result: held-out errors must have fallen for certain, and no bound may hold it back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from boresight.calibration.holdout import HeldOut
+from boresight.calibration.problem import Problem
+from boresight.calibration.result import Verdict
+from boresight.inference import listed
+from boresight.units import in_millimetres
+
+RESAMPLES = 2000
+CONFIDENCE = 0.95
+AT_BOUND = 1e-4
+"""A parameter is held back by its bound where it is nearer to it than this share of its half-width."""
+
+LOUD = 2.0
+"""Residuals this many times the stated noise are worth saying."""
+
+
+@dataclass(frozen=True, slots=True)
+class Improvement:
+    """How much of the held-out error is left.
+
+    Attributes:
+        ratio: RMS after over RMS before.
+        low, high: 95 % confidence interval of the ratio, by the bootstrap over rows.
+    """
+
+    ratio: float
+    low: float
+    high: float
+
+
+def improvement(held_out: HeldOut, seed: int) -> Improvement:
+    """Returns what is left of the held-out error, with its confidence interval (Efron & Tibshirani 1993).
+
+    Args:
+        held_out: error sizes before and after, row by row.
+        seed: of the resampling.
+    """
+    both = np.isfinite(held_out.before) & np.isfinite(held_out.after)
+    before, after = held_out.before[both] ** 2, held_out.after[both] ** 2
+    if not len(before):
+        return Improvement(np.nan, np.nan, np.nan)
+    random = np.random.Generator(np.random.Philox(seed))
+    ratios = np.array([_ratio(before[rows], after[rows]) for rows in _resamples(random, len(before))])
+    low, high = np.quantile(ratios, [(1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2])
+    return Improvement(_ratio(before, after), float(low), float(high))
+
+
+def judge(
+    held_out: HeldOut, problem: Problem, x: Float[np.ndarray, parameters], model_std: float, seed: int
+) -> Verdict:
+    """Returns the verdict and its reasons.
+
+    Args:
+        held_out: errors on rows that were not fitted.
+        problem: what was fitted.
+        x: the corrections found.
+        model_std: what the model leaves unexplained [m].
+        seed: of the bootstrap.
+    """
+    change, size = improvement(held_out, seed), held_out.residuals
+    fell = f"from {in_millimetres(size.before.rms)} to {in_millimetres(size.after.rms)} RMS on {held_out.method}"
+    interval = f"what is left is {change.low:.1%} to {change.high:.1%} of it, with 95 % confidence"
+    improved = change.high < 1.0
+    if improved:
+        reasons = [f"Held-out error fell {fell}: {interval}."]
+    elif size.count == 0:
+        reasons = ["No held-out row could be predicted: every beam looks away from its plane. Check planes and units."]
+    else:
+        reasons = [
+            f"Held-out error did not fall for certain, {fell}: {interval}. "
+            "Take more readings, spread over the joints' ranges, or free fewer parameters."
+        ]
+    stuck = [name for name, at in zip(problem.names, _at_bound(problem, x), strict=True) if at]
+    if stuck:
+        verb = "sits at its bound" if len(stuck) == 1 else "sit at their bounds"
+        reasons.append(f"{listed(stuck)} {verb}: widen `within` for them, or look for a wrong nominal value or unit.")
+    noise = float(np.median(problem.readings.std))
+    if model_std > LOUD * noise:
+        reasons.append(
+            f"The arm moves in ways this model does not have: residuals are {np.hypot(model_std, noise) / noise:.0f}x the "
+            "stated noise. Intervals are widened to match; gears, gravity or a wrong noise_std may explain it."
+        )
+    return Verdict(improved and not stuck, tuple(reasons))
+
+
+def _ratio(before: Float[np.ndarray, rows], after: Float[np.ndarray, rows]) -> float:
+    return float(np.sqrt(np.sum(after) / max(float(np.sum(before)), 1e-300)))
+
+
+def _resamples(random: np.random.Generator, count: int):
+    for _ in range(RESAMPLES):
+        yield random.integers(0, count, count)
+
+
+def _at_bound(problem: Problem, x: Float[np.ndarray, parameters]) -> Float[np.ndarray, parameters]:
+    return np.abs(x) > problem.half_width * (1.0 - AT_BOUND)

@@ -1,0 +1,47 @@
+"""Generations of evolution on the compiled cost, without leaving compiled code."""
+
+from __future__ import annotations
+
+from boresight.kernels.breeding import breed, select, summarise
+from boresight.kernels.compiling import compiled
+from boresight.kernels.sweeping import sweep
+
+
+@compiled
+def evolve_generations(
+    program, rows, work, breeding, run, members, costs, count, trials, trial_costs, draws, first, stale, limits, history
+):
+    """Runs generations until the history is full or a limit is met; nothing is allocated a generation.
+
+    Args:
+        program, rows, work: what the cost is (`boresight.kernels.programs`).
+        breeding: the strategy and its box.
+        run: key of the run.
+        members, costs: (parameters, lanes) and (lanes,) the population, changed in place.
+        count: number of members; the lanes beyond are spare.
+        trials, trial_costs, draws: work space.
+        first: number of the first generation to run.
+        stale: generations since the best last improved, and the cost it is compared with.
+        limits: cost at which to stop, stale generations at which to stop, relative improvement that counts.
+        history: (generations, 2) out, best and mean cost after each generation.
+
+    Returns:
+        Generations run, stale generations, and the cost they are compared with.
+    """
+    since, reference = stale
+    target, patience, tolerance = limits
+    best, lowest, _ = summarise(costs, count)
+    for step in range(history.shape[0]):
+        breed(run, first + step, breeding, members, count, best, draws, trials)
+        sweep(program, rows, work, trials, trial_costs)
+        select(members, costs, trials, trial_costs)
+        best, lowest, mean = summarise(costs, count)
+        history[step, 0], history[step, 1] = lowest, mean
+        if lowest < reference * (1.0 - tolerance):
+            reference = lowest
+            since = 0
+        else:
+            since += 1
+        if lowest <= target or since >= patience:
+            return step + 1, since, reference
+    return history.shape[0], since, reference

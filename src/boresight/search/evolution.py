@@ -1,0 +1,119 @@
+"""Differential evolution as immutable values behind ask and tell (Storn & Price 1997; paper, section 3.2).
+
+    population = seed_population(evolution, box, seed=1)
+    while True:
+        trials = ask(evolution, box, population)
+        population = tell(population, trials, cost(trials))
+
+Every random number depends on (seed, run, generation, member) alone, so any generation can be replayed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from boresight.kernels.breeding import Breeding, breed, draws_for, select, sow, summarise
+from boresight.kernels.programs import padded
+from boresight.kernels.random import run_key
+from boresight.search.box import Box
+from boresight.search.strategies import TRADE_OFF, Strategy
+
+
+@dataclass(frozen=True, slots=True)
+class DifferentialEvolution:
+    """The settings of an evolution; the defaults are the paper's (eq. 24).
+
+    Attributes:
+        strategy: how mutants are made.
+        population: Np, number of members, at least 5.
+        scale: F, weight of the difference of two members.
+        crossover: CR, probability of taking a component from the mutant.
+    """
+
+    strategy: Strategy = TRADE_OFF
+    population: int = 150
+    scale: float = 0.6
+    crossover: float = 0.9
+
+    def __post_init__(self) -> None:
+        if self.population < 5:
+            raise ValueError(f"a population needs at least 5 members, got {self.population}")
+
+    def breeding(self, box: Box) -> Breeding:
+        """Returns these settings as the compiled loop takes them."""
+        pull = self.scale if self.strategy.pull is None else self.strategy.pull
+        return Breeding(
+            self.strategy.from_current, float(pull), float(self.scale), float(self.crossover), box.lower, box.upper
+        )
+
+
+@dataclass(frozen=True)
+class Population:
+    """The members of a generation and what they cost; every operation returns a new one.
+
+    Attributes:
+        key: key of the run's random numbers.
+        lanes: (parameters, lanes) members as columns, padded to whole tiles by copies of the first.
+        costs: (members,) their costs; infinite before the first `tell`.
+        generation: generations completed; 0 before the first `tell`.
+    """
+
+    key: int
+    lanes: Float[np.ndarray, "parameters lanes"]
+    costs: Float[np.ndarray, members]
+    generation: int = 0
+
+    @property
+    def members(self) -> Float[np.ndarray, "members parameters"]:
+        """The members, one a row."""
+        return self.lanes[:, : len(self.costs)].T
+
+    @property
+    def best(self) -> Float[np.ndarray, parameters]:
+        """The member of lowest cost."""
+        return self.lanes[:, int(np.argmin(self.costs))].copy()
+
+    @property
+    def best_cost(self) -> float:
+        """The lowest cost."""
+        return float(np.min(self.costs))
+
+
+def seed_population(settings: DifferentialEvolution, box: Box, seed: int, run: int = 0) -> Population:
+    """Returns a first population, uniform in the box (paper, step 3), not yet evaluated."""
+    lanes = np.empty((len(box), padded(settings.population)))
+    key = int(run_key(np.uint64(seed), np.uint64(run)))
+    sow(np.uint64(key), box.lower, box.upper, settings.population, lanes)
+    return Population(key, lanes, np.full(settings.population, np.inf))
+
+
+def ask(settings: DifferentialEvolution, box: Box, population: Population) -> Float[np.ndarray, "members parameters"]:
+    """Returns the members to evaluate next: the first population itself, then trials bred from it."""
+    if population.generation == 0:
+        return population.members.copy()
+    count = len(population.costs)
+    trials = np.empty_like(population.lanes)
+    best, _, _ = summarise(population.costs, count)
+    breed(
+        np.uint64(population.key),
+        population.generation,
+        settings.breeding(box),
+        population.lanes,
+        count,
+        best,
+        draws_for(count),
+        trials,
+    )
+    return trials[:, :count].T
+
+
+def tell(
+    population: Population, trials: Float[np.ndarray, "members parameters"], costs: Float[np.ndarray, members]
+) -> Population:
+    """Returns the next generation: of each member and its trial, the cheaper (paper, eq. 18)."""
+    lanes, kept = population.lanes.copy(), population.costs.copy()
+    select(lanes[:, : len(kept)], kept, np.ascontiguousarray(trials.T), np.nan_to_num(costs, nan=np.inf))
+    return replace(population, lanes=lanes, costs=kept, generation=population.generation + 1)
