@@ -81,8 +81,8 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
 
 
 def _explain_residuals(
-    problem: Problem, x: Float[np.ndarray, parameters], polish: bool
-) -> tuple[Problem, Float[np.ndarray, parameters], float]:
+    problem: Problem, x: Float[np.ndarray, "parameters"], polish: bool
+) -> tuple[Problem, Float[np.ndarray, "parameters"], float]:
     """Returns the problem whose standard deviations explain its residuals, its optimum, and the model's own std."""
     stated = problem
     excess = 0.0

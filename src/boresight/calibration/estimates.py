@@ -71,13 +71,10 @@ def _rpy_std(
     step = 1e-6
     slopes = np.empty((3, len(turned)))
     for column, place in enumerate(turned):
-        forward, backward = (
-            frame.moved((0.0, 0.0, 0.0), tuple(sign * step if k == place else 0.0 for k in range(3)))
-            for sign in (1.0, -1.0)
-        )
+        roll, pitch, yaw = (step if k == place else 0.0 for k in range(3))
+        forward = frame.moved((0.0, 0.0, 0.0), (roll, pitch, yaw))
+        backward = frame.moved((0.0, 0.0, 0.0), (-roll, -pitch, -yaw))
         change = np.subtract(forward.rpy, backward.rpy)
         slopes[:, column] = (np.mod(change + np.pi, 2 * np.pi) - np.pi) / (2 * step)
     carried = slopes @ covariance[np.ix_(columns, columns)] @ slopes.T
-    return {
-        f"{name}.{turn}": float(np.sqrt(carried[k, k])) for k, turn in enumerate(_TURNS) if f"{name}.{turn}" in free
-    }
+    return {f"{name}.{_TURNS[k]}": float(np.sqrt(carried[k, k])) for k in turned}

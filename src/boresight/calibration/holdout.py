@@ -26,8 +26,8 @@ class HeldOut:
     """
 
     method: str
-    before: Float[np.ndarray, rows]
-    after: Float[np.ndarray, rows]
+    before: Float[np.ndarray, "rows"]
+    after: Float[np.ndarray, "rows"]
 
     @property
     def residuals(self) -> Residuals:
@@ -40,7 +40,7 @@ def on_validation_rows(nominal: Cell, identified: Cell, rows: Readings) -> HeldO
     return HeldOut("validation rows", error_sizes(nominal, rows), error_sizes(identified, rows))
 
 
-def by_cross_validation(problem: Problem, x: Float[np.ndarray, parameters], seed: int) -> HeldOut:
+def by_cross_validation(problem: Problem, x: Float[np.ndarray, "parameters"], seed: int) -> HeldOut:
     """Returns each row's error under a fit to the other folds' rows.
 
     Every fold's fit starts at the final one, which decides the optimum's neighbourhood but not the optimum.
@@ -63,17 +63,17 @@ def by_cross_validation(problem: Problem, x: Float[np.ndarray, parameters], seed
     return HeldOut(f"{FOLDS}-fold cross-validation", error_sizes(problem.cell, problem.readings), after)
 
 
-def error_sizes(cell: Cell, rows: Readings) -> Float[np.ndarray, rows]:
+def error_sizes(cell: Cell, rows: Readings) -> Float[np.ndarray, "rows"]:
     """Returns the size [m] of each row's error: of a range, or the length of a position's error vector."""
     return np.linalg.norm(cell.predict(rows.joints, rows.target) - rows.values, axis=1)
 
 
-def summarise(method: str, before: Float[np.ndarray, rows], after: Float[np.ndarray, rows]) -> Residuals:
+def summarise(method: str, before: Float[np.ndarray, "rows"], after: Float[np.ndarray, "rows"]) -> Residuals:
     """Returns RMS and maximum of error sizes over the rows that both models can predict."""
     both = np.isfinite(before) & np.isfinite(after)
     missed = int(np.count_nonzero(~np.isfinite(after)))
     return Residuals(method, int(np.count_nonzero(both)), missed, _size(before[both]), _size(after[both]))
 
 
-def _size(errors: Float[np.ndarray, rows]) -> ErrorSummary:
+def _size(errors: Float[np.ndarray, "rows"]) -> ErrorSummary:
     return ErrorSummary(rms(errors), float(np.max(errors, initial=0.0)) if len(errors) else float("nan"))

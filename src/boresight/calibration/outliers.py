@@ -12,7 +12,7 @@ FLAGGED = 5.0
 """Standard deviations beyond which a residual stands out: of 100,000 good rows, one in 17 batches."""
 
 
-def find_outliers(problem: Problem, x: Float[np.ndarray, parameters]) -> tuple[Outlier, ...]:
+def find_outliers(problem: Problem, x: Float[np.ndarray, "parameters"]) -> tuple[Outlier, ...]:
     """Returns the rows whose studentised residual stands out, by size.
 
     Each error is divided by its standard deviation after the fit, sqrt(1 - leverage) of the one before (Cook &
@@ -40,5 +40,5 @@ def find_outliers(problem: Problem, x: Float[np.ndarray, parameters]) -> tuple[O
     )
 
 
-def _signed_size(error: Float[np.ndarray, channels]) -> float:
+def _signed_size(error: Float[np.ndarray, "channels"]) -> float:
     return float(error[0]) if len(error) == 1 else float(np.linalg.norm(error))

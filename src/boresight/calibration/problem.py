@@ -48,17 +48,17 @@ class Problem:
         return [self.cell.index[name] for name in self.names]
 
     @cached_property
-    def prior_std(self) -> Float[np.ndarray, parameters]:
+    def prior_std(self) -> Float[np.ndarray, "parameters"]:
         """Prior standard deviations, infinite where nothing is believed."""
         return np.array([np.inf if f.prior_std is None else f.prior_std for f in self.freedoms])
 
     @cached_property
-    def half_width(self) -> Float[np.ndarray, parameters]:
+    def half_width(self) -> Float[np.ndarray, "parameters"]:
         """Half-widths of the search, infinite where there is no bound."""
         return np.array([np.inf if f.within is None else f.within for f in self.freedoms])
 
     @cached_property
-    def scale(self) -> Float[np.ndarray, parameters]:
+    def scale(self) -> Float[np.ndarray, "parameters"]:
         """A typical size of each correction, so that metres and radians compare."""
         return np.minimum(np.minimum(self.prior_std, self.half_width), self._evolved_half_width)
 
@@ -79,33 +79,33 @@ class Problem:
         """The median standard deviation of a residual [m]."""
         return float(np.median(self.std))
 
-    def corrections(self, x: Float[np.ndarray, parameters]) -> Float[np.ndarray, all]:
+    def corrections(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "all"]:
         """Returns corrections of all the cell's parameters from those of the free ones."""
         full = np.zeros(len(self.cell.parameters))
         full[self.columns] = x
         return full
 
-    def errors(self, x: Float[np.ndarray, parameters]) -> Float[np.ndarray, "rows channels"]:
+    def errors(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels"]:
         """Returns predicted minus measured values [m]; NaN where a beam misses."""
         values = self.cell.predict(self.readings.joints, self.readings.target, self.corrections(x))
         return values - self.readings.values
 
-    def residual(self, x: Float[np.ndarray, parameters]) -> Float[np.ndarray, residuals]:
+    def residual(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "residuals"]:
         """Returns errors over their standard deviations, then corrections over theirs (MAP)."""
         errors = np.nan_to_num(self.errors(x), nan=MISSED_M)
         return np.concatenate([(errors / self.std).ravel(), x / self.prior_std])
 
-    def jacobian(self, x: Float[np.ndarray, parameters]) -> Float[np.ndarray, "residuals parameters"]:
+    def jacobian(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "residuals parameters"]:
         """Returns the exact derivative of `residual`."""
         return np.vstack([self.sensitivity(x), np.diag(1.0 / self.prior_std)])
 
-    def sensitivity(self, x: Float[np.ndarray, parameters]) -> Float[np.ndarray, "values parameters"]:
+    def sensitivity(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "values parameters"]:
         """Returns the derivative of the readings over their standard deviations, priors left out."""
         _, full = self.cell.linearise(self.readings.joints, self.readings.target, self.corrections(x))
         scaled = np.nan_to_num(full[:, :, self.columns], nan=0.0) / self.std[:, :, None]
         return scaled.reshape(-1, len(self.columns))
 
-    def fitted(self, x: Float[np.ndarray, parameters]) -> Cell:
+    def fitted(self, x: Float[np.ndarray, "parameters"]) -> Cell:
         """Returns the cell with the corrections applied."""
         return self.cell.corrected(dict(zip(self.names, (float(value) for value in x), strict=True)))
 
@@ -113,12 +113,12 @@ class Problem:
         """Returns the same problem with the model's own standard deviation [m] added in squares."""
         return replace(self, std=np.sqrt(self.readings.std**2 + model_std**2))
 
-    def on(self, rows: Float[np.ndarray, some]) -> Problem:
+    def on(self, rows: Float[np.ndarray, "some"]) -> Problem:
         """Returns the same problem on some of the rows."""
         return replace(self, readings=self.readings.chosen(rows), std=self.std[rows])
 
     @cached_property
-    def _evolved_half_width(self) -> Float[np.ndarray, parameters]:
+    def _evolved_half_width(self) -> Float[np.ndarray, "parameters"]:
         usual = [UNBOUNDED_HALF_WIDTH[self.cell.parameters[column].quantity] for column in self.columns]
         return np.where(np.isfinite(self.half_width), self.half_width, usual)
 

@@ -72,7 +72,7 @@ class Solution:
         nominal_suffices: whether it reached the same optimum.
     """
 
-    x: Float[np.ndarray, parameters]
+    x: Float[np.ndarray, "parameters"]
     cost: float
     stages: tuple[Stage, ...]
     history: Float[np.ndarray, "generations 2"]
@@ -102,7 +102,7 @@ def solve(problem: Problem, solver: Solver, on_progress: Progress | None = None)
         return Solution(evolved.best, stage.cost, (stage,), evolved.history, None, None)
     polished, direct = refine(problem, evolved.best), refine(problem, start)
     nominal = _stage(problem, "least squares from the nominal model", direct)
-    stages = (stage, _stage(problem, "least squares from evolution's best", polished))
+    stages: tuple[Stage, ...] = (stage, _stage(problem, "least squares from evolution's best", polished))
     best = polished
     if direct.cost < polished.cost * (1.0 - SAME_OPTIMUM):
         best, stages = direct, (*stages, nominal)
@@ -110,7 +110,7 @@ def solve(problem: Problem, solver: Solver, on_progress: Progress | None = None)
     return Solution(best.best, best.cost, stages, evolved.history, nominal, suffices)
 
 
-def refine(problem: Problem, start: Float[np.ndarray, parameters]) -> LeastSquares:
+def refine(problem: Problem, start: Float[np.ndarray, "parameters"]) -> LeastSquares:
     """Returns the least-squares optimum reached from a start, inside the problem's bounds."""
     if not len(start):
         return LeastSquares.at(start, float(np.sum(problem.residual(start) ** 2)))

@@ -54,7 +54,7 @@ def improvement(held_out: HeldOut, seed: int) -> Improvement:
 
 
 def judge(
-    held_out: HeldOut, problem: Problem, x: Float[np.ndarray, parameters], model_std: float, seed: int
+    held_out: HeldOut, problem: Problem, x: Float[np.ndarray, "parameters"], model_std: float, seed: int
 ) -> Verdict:
     """Returns the verdict and its reasons.
 
@@ -85,13 +85,13 @@ def judge(
     noise = float(np.median(problem.readings.std))
     if model_std > LOUD * noise:
         reasons.append(
-            f"The arm moves in ways this model does not have: residuals are {np.hypot(model_std, noise) / noise:.0f}x the "
-            "stated noise. Intervals are widened to match; gears, gravity or a wrong noise_std may explain it."
+            f"The arm moves in ways this model does not have: residuals are {np.hypot(model_std, noise) / noise:.0f}x "
+            "the stated noise. Intervals are widened to match; gears, gravity or a wrong noise_std may explain it."
         )
     return Verdict(improved and not stuck, tuple(reasons))
 
 
-def _ratio(before: Float[np.ndarray, rows], after: Float[np.ndarray, rows]) -> float:
+def _ratio(before: Float[np.ndarray, "rows"], after: Float[np.ndarray, "rows"]) -> float:
     return float(np.sqrt(np.sum(after) / max(float(np.sum(before)), 1e-300)))
 
 
@@ -100,5 +100,5 @@ def _resamples(random: np.random.Generator, count: int):
         yield random.integers(0, count, count)
 
 
-def _at_bound(problem: Problem, x: Float[np.ndarray, parameters]) -> Float[np.ndarray, parameters]:
+def _at_bound(problem: Problem, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "parameters"]:
     return np.abs(x) > problem.half_width * (1.0 - AT_BOUND)

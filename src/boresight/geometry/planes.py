@@ -74,4 +74,4 @@ class Plane:
 
     def height(self, points: Float[np.ndarray, "*batch 3"]) -> Float[np.ndarray, "*batch"]:
         """Returns the signed distance [m] of points from the plane, positive on the normal's side."""
-        return points @ np.asarray(self.normal) + self.offset
+        return np.asarray(points @ np.asarray(self.normal) + self.offset)

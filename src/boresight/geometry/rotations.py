@@ -21,7 +21,7 @@ def axis_rotation(axis: int, angle_rad: Float[np.ndarray, "*batch"] | float) -> 
     return rotation
 
 
-def rpy_matrix(rpy_rad: Float[np.ndarray, 3] | tuple[float, float, float]) -> Float[np.ndarray, "3 3"]:
+def rpy_matrix(rpy_rad: Float[np.ndarray, "3"] | tuple[float, float, float]) -> Float[np.ndarray, "3 3"]:
     """Returns R = Rz(yaw) Ry(pitch) Rx(roll) of (roll, pitch, yaw) [rad]."""
     roll, pitch, yaw = (float(angle) for angle in rpy_rad)
     return axis_rotation(2, yaw) @ axis_rotation(1, pitch) @ axis_rotation(0, roll)
@@ -54,7 +54,7 @@ def rotation_angle(
         axis=-1,
     )
     cosine = 0.5 * (np.trace(relative, axis1=-2, axis2=-1) - 1.0)
-    return np.arctan2(sine, cosine)
+    return np.asarray(np.arctan2(sine, cosine))
 
 
 def nearest_rotation(matrix: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 
-def model_std(residuals: Float[np.ndarray, values], std: Float[np.ndarray, values], freedom: float) -> float:
+def model_std(residuals: Float[np.ndarray, "values"], std: Float[np.ndarray, "values"], freedom: float) -> float:
     """Returns the standard deviation that, added to the stated ones in squares, explains the residuals.
 
     It solves sum r² / (s² + m²) = values - freedom for m (Mandel & Paule 1970), and is 0 where the stated

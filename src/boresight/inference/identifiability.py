@@ -26,7 +26,7 @@ class Identifiability:
 
     names: tuple[str, ...]
     rank: int
-    singular_values: Float[np.ndarray, parameters]
+    singular_values: Float[np.ndarray, "parameters"]
     unseen: Float[np.ndarray, "directions parameters"]
 
     @property
@@ -38,7 +38,7 @@ class Identifiability:
 def identify_directions(
     names: tuple[str, ...],
     jacobian: Float[np.ndarray, "residuals parameters"],
-    scale: Float[np.ndarray, parameters],
+    scale: Float[np.ndarray, "parameters"],
 ) -> Identifiability:
     """Returns what a Jacobian sees of its parameters.
 

@@ -14,7 +14,7 @@ SHRUNK = 0.1
 
 
 def posterior_covariance(
-    jacobian: Float[np.ndarray, "residuals parameters"], prior_std: Float[np.ndarray, parameters]
+    jacobian: Float[np.ndarray, "residuals parameters"], prior_std: Float[np.ndarray, "parameters"]
 ) -> Float[np.ndarray, "parameters parameters"]:
     """Returns the covariance of the maximum a posteriori estimate, (J'J + P^-1)^-1.
 
@@ -29,7 +29,7 @@ def posterior_covariance(
     return inverse * np.outer(scale, scale)
 
 
-def sources(std: Float[np.ndarray, parameters], prior_std: Float[np.ndarray, parameters]) -> tuple[str, ...]:
+def sources(std: Float[np.ndarray, "parameters"], prior_std: Float[np.ndarray, "parameters"]) -> tuple[str, ...]:
     """Returns for each parameter whether its value comes from the `data` or from the `prior`."""
     prior = np.minimum(prior_std, FLAT_PRIOR)
     return tuple("data" if shrunk else "prior" for shrunk in std**2 < SHRUNK * prior**2)

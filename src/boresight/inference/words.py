@@ -8,7 +8,9 @@ from jaxtyping import Float
 from boresight.inference.identifiability import Identifiability
 
 
-def unseen_in_words(found: Identifiability, scale: Float[np.ndarray, parameters]) -> list[tuple[tuple[str, ...], str]]:
+def unseen_in_words(
+    found: Identifiability, scale: Float[np.ndarray, "parameters"]
+) -> list[tuple[tuple[str, ...], str]]:
     """Returns for every unseen direction its parameters and a sentence that says what cannot be told.
 
     Parameters that change no reading by themselves come first, together in one sentence.
@@ -38,7 +40,7 @@ def listed(names: tuple[str, ...] | list[str], most: int = 8) -> str:
     return shown[0] if len(shown) == 1 else f"{', '.join(shown[:-1])} and {shown[-1]}"
 
 
-def _together(found: Identifiability, direction: Float[np.ndarray, parameters]) -> str:
+def _together(found: Identifiability, direction: Float[np.ndarray, "parameters"]) -> str:
     """Returns a direction as moves of its parameters: "moving a by 1 and b by -0.2 together"."""
     touched = sorted(np.flatnonzero(direction), key=lambda i: -abs(direction[i]))
     leading = direction[touched[0]]

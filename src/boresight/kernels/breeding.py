@@ -79,10 +79,10 @@ def choose(run, generation, parameters, from_current, count, draws):
         while a == me:
             a = draw(key, index) % total
             index += 1
-        while b == me or b == a:
+        while b in (me, a):
             b = draw(key, index) % total
             index += 1
-        while c == me or c == a or c == b:
+        while c in (me, a, b):
             c = draw(key, index) % total
             index += 1
         draws.origin[i] = me if from_current else a

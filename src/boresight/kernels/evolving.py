@@ -14,12 +14,17 @@ def evolve_generations(
     """Runs generations until the history is full or a limit is met; nothing is allocated a generation.
 
     Args:
-        program, rows, work: what the cost is (`boresight.kernels.programs`).
+        program: how a member becomes links and planes.
+        rows: the readings.
+        work: the thread's memory.
         breeding: the strategy and its box.
         run: key of the run.
-        members, costs: (parameters, lanes) and (lanes,) the population, changed in place.
+        members: (parameters, lanes) the population, changed in place.
+        costs: (lanes,) its costs, changed in place.
         count: number of members; the lanes beyond are spare.
-        trials, trial_costs, draws: work space.
+        trials: (parameters, lanes) work space.
+        trial_costs: (lanes,) work space.
+        draws: work space.
         first: number of the first generation to run.
         stale: generations since the best last improved, and the cost it is compared with.
         limits: cost at which to stop, stale generations at which to stop, relative improvement that counts.

@@ -17,8 +17,8 @@ class Box:
         upper: (parameters,) upper bounds.
     """
 
-    lower: Float[np.ndarray, parameters]
-    upper: Float[np.ndarray, parameters]
+    lower: Float[np.ndarray, "parameters"]
+    upper: Float[np.ndarray, "parameters"]
 
     def __post_init__(self) -> None:
         assert self.lower.shape == self.upper.shape
@@ -29,6 +29,6 @@ class Box:
         return len(self.lower)
 
     @property
-    def width(self) -> Float[np.ndarray, parameters]:
+    def width(self) -> Float[np.ndarray, "parameters"]:
         """Upper minus lower bound of every parameter."""
         return self.upper - self.lower

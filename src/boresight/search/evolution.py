@@ -63,7 +63,7 @@ class Population:
 
     key: int
     lanes: Float[np.ndarray, "parameters lanes"]
-    costs: Float[np.ndarray, members]
+    costs: Float[np.ndarray, "members"]
     generation: int = 0
 
     @property
@@ -72,7 +72,7 @@ class Population:
         return self.lanes[:, : len(self.costs)].T
 
     @property
-    def best(self) -> Float[np.ndarray, parameters]:
+    def best(self) -> Float[np.ndarray, "parameters"]:
         """The member of lowest cost."""
         return self.lanes[:, int(np.argmin(self.costs))].copy()
 
@@ -111,7 +111,7 @@ def ask(settings: DifferentialEvolution, box: Box, population: Population) -> Fl
 
 
 def tell(
-    population: Population, trials: Float[np.ndarray, "members parameters"], costs: Float[np.ndarray, members]
+    population: Population, trials: Float[np.ndarray, "members parameters"], costs: Float[np.ndarray, "members"]
 ) -> Population:
     """Returns the next generation: of each member and its trial, the cheaper (paper, eq. 18)."""
     lanes, kept = population.lanes.copy(), population.costs.copy()

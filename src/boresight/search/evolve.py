@@ -56,7 +56,7 @@ class Stretch:
 class CompiledCost(Protocol):
     """A cost that can also run generations without coming back to Python."""
 
-    def __call__(self, members: Float[np.ndarray, "members parameters"]) -> Float[np.ndarray, members]:
+    def __call__(self, members: Float[np.ndarray, "members parameters"]) -> Float[np.ndarray, "members"]:
         """Returns the cost of every member."""
         ...
 
@@ -87,7 +87,7 @@ class Evolved:
         seconds: wall time.
     """
 
-    best: Float[np.ndarray, parameters]
+    best: Float[np.ndarray, "parameters"]
     cost: float
     outcome: Outcome
     population: Population

@@ -39,7 +39,7 @@ class LeastSquares:
 
 
 def least_squares(
-    residual: Callable[[Vector], Float[np.ndarray, residuals]],
+    residual: Callable[[Vector], Float[np.ndarray, "residuals"]],
     jacobian: Callable[[Vector], Float[np.ndarray, "residuals parameters"]],
     start: Vector,
     *,

@@ -78,7 +78,7 @@ class Cell:
         return numbers
 
     def poses(
-        self, joints: Float[np.ndarray, "rows joints"], corrections: Float[np.ndarray, parameters] | None = None
+        self, joints: Float[np.ndarray, "rows joints"], corrections: Float[np.ndarray, "parameters"] | None = None
     ) -> Float[np.ndarray, "rows 4 4"]:
         """Returns `T_world_sensor` at joint readings [rad or m]."""
         return self.chain.poses(joints, self._chain_part(corrections))
@@ -86,8 +86,8 @@ class Cell:
     def predict(
         self,
         joints: Float[np.ndarray, "rows joints"],
-        target: Int[np.ndarray, rows],
-        corrections: Float[np.ndarray, parameters] | None = None,
+        target: Int[np.ndarray, "rows"],
+        corrections: Float[np.ndarray, "parameters"] | None = None,
     ) -> Float[np.ndarray, "rows channels"]:
         """Returns what the sensor would read; NaN where it cannot see its target.
 
@@ -105,8 +105,8 @@ class Cell:
     def linearise(
         self,
         joints: Float[np.ndarray, "rows joints"],
-        target: Int[np.ndarray, rows],
-        corrections: Float[np.ndarray, parameters] | None = None,
+        target: Int[np.ndarray, "rows"],
+        corrections: Float[np.ndarray, "parameters"] | None = None,
     ) -> tuple[Float[np.ndarray, "rows channels"], Float[np.ndarray, "rows channels parameters"]]:
         """Returns what the sensor would read and its exact derivative by every parameter; see `predict`."""
         motion = self.chain.linearise(joints, self._chain_part(corrections))

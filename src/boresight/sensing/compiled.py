@@ -19,7 +19,7 @@ from boresight.sensing.cell import Cell
 from boresight.sensing.readings import Readings
 
 
-def compile_program(cell: Cell, free: Sequence[str], prior_weight: Float[np.ndarray, free]) -> Program:
+def compile_program(cell: Cell, free: Sequence[str], prior_weight: Float[np.ndarray, "free"]) -> Program:
     """Returns how corrections of the free parameters, in that order, become links and planes.
 
     Args:
@@ -101,7 +101,7 @@ class CompiledCost:
         self._rows = rows
         self._work = workspace(program)
 
-    def __call__(self, members: Float[np.ndarray, "members parameters"]) -> Float[np.ndarray, members]:
+    def __call__(self, members: Float[np.ndarray, "members parameters"]) -> Float[np.ndarray, "members"]:
         """Returns the cost of every member."""
         lanes = np.zeros((members.shape[1], padded(len(members))))
         lanes[:, : len(members)] = members.T

@@ -23,13 +23,13 @@ class Readings:
     joints: Float[np.ndarray, "rows joints"]
     values: Float[np.ndarray, "rows channels"]
     std: Float[np.ndarray, "rows channels"]
-    target: Int[np.ndarray, rows]
-    line: Int[np.ndarray, rows]
+    target: Int[np.ndarray, "rows"]
+    line: Int[np.ndarray, "rows"]
 
     def __len__(self) -> int:
         """Number of rows."""
         return len(self.joints)
 
-    def chosen(self, rows: Int[np.ndarray, some] | Bool[np.ndarray, rows]) -> Readings:
+    def chosen(self, rows: Int[np.ndarray, "some"] | Bool[np.ndarray, "rows"]) -> Readings:
         """Returns the readings of some rows, by index or mask."""
         return Readings(self.joints[rows], self.values[rows], self.std[rows], self.target[rows], self.line[rows])
