@@ -1,0 +1,124 @@
+"""The compiled cost against the NumPy reference, over everything a cell can be."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from boresight.kernels.programs import LANES, MISSED, padded, workspace
+from boresight.kernels.sweeping import sweep
+from boresight.sensing import Readings
+from boresight.sensing.compiled import compile_program, compile_rows
+from random_cells import (
+    CONVENTIONS,
+    random_arm,
+    random_cell,
+    random_corrections,
+    random_joints,
+    random_targets,
+)
+
+RELATIVE = 1e-12
+
+
+def compiled_costs(cell, readings, weight, free, prior_weight, members):
+    """Returns the costs of (free, members) corrections, padded to whole tiles with copies of the first."""
+    count = members.shape[1]
+    lanes = np.repeat(members[:, :1], padded(count), axis=1)
+    lanes[:, :count] = members
+    costs = np.full(padded(count), np.nan)
+    program = compile_program(cell, free, prior_weight)
+    sweep(program, compile_rows(cell, readings, weight), workspace(program), lanes, costs)
+    return costs[:count], costs[count:]
+
+
+def reference_cost(cell, readings, weight, free, prior_weight, member):
+    """Returns the cost of one member by `Cell.predict`."""
+    corrections = np.zeros(len(cell.parameters))
+    corrections[[cell.index[name] for name in free]] = member
+    residual = cell.predict(readings.joints, readings.target, corrections) - readings.values
+    residual = np.where(np.isnan(residual), MISSED, residual)
+    return np.sum(weight * residual**2) + np.sum(prior_weight * member**2)
+
+
+def random_readings(rng, cell, rows):
+    """Returns readings near what the nominal cell predicts; 1 m where it sees nothing.
+
+    Beams that graze their plane are left out: there a rounding error is no longer small in the range.
+    """
+    joints, target = random_joints(rng, cell.arm, 4 * rows), random_targets(rng, cell, 4 * rows)
+    normals = np.array([plane.normal for plane in cell.targets.values()])[target]
+    steep = np.abs(np.sum(normals * cell.poses(joints)[:, :3, 2], axis=1)) > 0.3
+    joints, target = joints[steep][:rows], target[steep][:rows]
+    rows = len(joints)
+    values = np.nan_to_num(cell.predict(joints, target), nan=1.0) + rng.normal(0.0, 0.05, (rows, 1))
+    return Readings(joints, values, np.full_like(values, 2e-4), target, np.arange(rows))
+
+
+def assert_equal_costs(rng, cell, rows, count, free):
+    readings = random_readings(rng, cell, rows)
+    weight = rng.uniform(0.1, 10.0, readings.values.shape)
+    prior_weight = rng.uniform(0.0, 100.0, len(free))
+    members = np.array([random_corrections(rng, cell)[: len(free)] for _ in range(count)]).T
+    costs, spare = compiled_costs(cell, readings, weight, free, prior_weight, members)
+    expected = [reference_cost(cell, readings, weight, free, prior_weight, member) for member in members.T]
+    np.testing.assert_allclose(costs, expected, rtol=RELATIVE, atol=0)
+    assert np.all(spare == costs[0])
+
+
+@pytest.mark.parametrize("sensor", ["laser_ranger", "position"])
+@pytest.mark.parametrize("convention", CONVENTIONS)
+@pytest.mark.parametrize("joints", [1, 2, 3, 6, 8])
+def test_compiled_cost_equals_numpy_with_every_parameter_free(joints, convention, sensor):
+    rng = np.random.default_rng([joints, CONVENTIONS.index(convention), sensor == "position"])
+    cell = random_cell(rng, planes=int(rng.integers(1, 4)), sensor=sensor, arm=random_arm(rng, joints, convention))
+    free = [parameter.name for parameter in cell.parameters]
+    assert_equal_costs(rng, cell, rows=30, count=int(rng.integers(1, 3 * LANES)), free=free)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_compiled_cost_equals_numpy_with_some_parameters_free_in_any_order(seed):
+    rng = np.random.default_rng([seed, 17])
+    cell = random_cell(rng, planes=2)
+    names = [parameter.name for parameter in cell.parameters]
+    free = [str(name) for name in rng.permutation(names)[: int(rng.integers(1, len(names)))]]
+    assert_equal_costs(rng, cell, rows=20, count=int(rng.integers(1, 40)), free=free)
+
+
+def test_compiled_cost_equals_numpy_where_corrections_outgrow_the_unit_normal():
+    rng = np.random.default_rng(3)
+    cell = random_cell(rng, planes=1)
+    readings = random_readings(rng, cell, 20)
+    plane = [parameter.name for parameter in cell.parameters][-3:]
+    members = rng.uniform(-1.5, 1.5, (3, 50))
+    weight, prior_weight = np.ones(readings.values.shape), np.zeros(3)
+    costs, _ = compiled_costs(cell, readings, weight, plane, prior_weight, members)
+    expected = [reference_cost(cell, readings, weight, plane, prior_weight, member) for member in members.T]
+    np.testing.assert_allclose(costs, expected, rtol=RELATIVE, atol=0)
+
+
+def test_missed_beam_never_improves_the_best():
+    rng = np.random.default_rng(11)
+    cell = random_cell(rng, planes=1, arm=random_arm(rng, 6))
+    readings = random_readings(rng, cell, 60)
+    missed = np.isnan(cell.predict(readings.joints, readings.target)[:, 0])
+    assert 0 < missed.sum() < len(missed)
+    weight = rng.uniform(0.5, 2.0, readings.values.shape)
+    still = np.zeros((1, 1))
+    all_missed, _ = compiled_costs(cell, readings.chosen(missed), weight[missed], ["j1.theta"], np.zeros(1), still)
+    np.testing.assert_allclose(all_missed, MISSED**2 * weight[missed].sum(), rtol=RELATIVE)
+    none_missed, _ = compiled_costs(cell, readings.chosen(~missed), weight[~missed], ["j1.theta"], np.zeros(1), still)
+    assert none_missed[0] < MISSED**2 * weight.min()
+
+
+def test_cost_of_a_member_does_not_depend_on_its_lane_or_neighbours():
+    rng = np.random.default_rng(23)
+    cell = random_cell(rng)
+    readings = random_readings(rng, cell, 25)
+    free = [parameter.name for parameter in cell.parameters]
+    weight, prior_weight = np.ones(readings.values.shape), np.ones(len(free))
+    members = np.array([random_corrections(rng, cell) for _ in range(70)]).T
+    order = rng.permutation(70)
+    straight, _ = compiled_costs(cell, readings, weight, free, prior_weight, members)
+    shuffled, _ = compiled_costs(cell, readings, weight, free, prior_weight, members[:, order])
+    assert np.array_equal(straight[order], shuffled)
