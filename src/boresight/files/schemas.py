@@ -1,0 +1,198 @@
+"""What robot.yaml and campaign.yaml may say, as pydantic models; numbers in the file's own units.
+
+A description completes the sentence "expected ...". Values that pydantic would bend into shape (true as 1,
+"3" as 3) are refused: a file of measurements says what it means.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, AllowInfNan, BaseModel, BeforeValidator, ConfigDict, Field, Strict, model_validator
+from pydantic_core import PydanticCustomError
+
+from boresight.arm.conventions import Convention, JointType
+from boresight.units import AngleUnit, LengthUnit, Units
+
+RESERVED = ("base", "mount", "sensor")
+"""Names that joints and targets cannot have, since parameters or keys are called after them."""
+
+_NOT_IN_NAMES = set('.*?[]#",')
+
+
+def expected(what: str) -> PydanticCustomError:
+    """Returns the error that a value is not what it should be, in words."""
+    return PydanticCustomError("expected", "{what}", {"what": what})
+
+
+def _checked_name(name: str) -> str:
+    if not name or name.strip() != name or not name.isprintable() or _NOT_IN_NAMES & set(name):
+        raise expected('a name that is not empty, without dots, wildcards, commas, ", # or spaces around it')
+    if name in RESERVED:
+        raise expected(f"a name other than {', '.join(RESERVED)}, which mean something else")
+    return name
+
+
+def _triple(value: Any) -> Any:
+    if not _is_numbers(value, 3):
+        raise expected("a list of 3 finite numbers")
+    return tuple(map(float, value))
+
+
+def _unknown_or_triple(value: Any) -> Any:
+    if value == "unknown":
+        return None
+    if not _is_numbers(value, 3):
+        raise expected("a list of 3 finite numbers, or unknown")
+    return tuple(map(float, value))
+
+
+def _limits(value: Any) -> Any:
+    if not _is_numbers(value, 2) or not value[0] < value[1]:
+        raise expected("two finite numbers, the lower limit and then the upper: [-170, 170]")
+    return tuple(map(float, value))
+
+
+def _is_numbers(value: Any, count: int) -> bool:
+    return isinstance(value, list) and len(value) == count and all(map(_is_number, value))
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+Number = Annotated[float, Strict(), AllowInfNan(False)]
+Positive = Annotated[Number, Field(gt=0)]
+Name = Annotated[str, AfterValidator(_checked_name)]
+Triple = Annotated[tuple[float, float, float], BeforeValidator(_triple)]
+KnownTriple = Annotated[tuple[float, float, float] | None, BeforeValidator(_unknown_or_triple)]
+Limits = Annotated[tuple[float, float] | None, BeforeValidator(_limits)]
+
+
+class Entry(BaseModel):
+    """A block of keys; others than its own are errors."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class UnitsEntry(Entry):
+    """`units: {length: mm, angle: deg}`."""
+
+    length: LengthUnit = "m"
+    angle: AngleUnit = "rad"
+
+    @property
+    def value(self) -> Units:
+        """The units as the package's own value."""
+        return Units(self.length, self.angle)
+
+
+class JointEntry(Entry):
+    """One joint and its link."""
+
+    name: Name = Field(description="the joint's name")
+    type: JointType = "revolute"
+    theta: Number = 0.0
+    d: Number = 0.0
+    a: Number = 0.0
+    alpha: Number = 0.0
+    beta: Number = 0.0
+    limits: Limits = None
+
+    @model_validator(mode="after")
+    def _prismatic_joints_have_limits(self) -> JointEntry:
+        if self.type == "prismatic" and self.limits is None:
+            raise expected("limits for a prismatic joint, in the length unit: limits: [0, 0.5]")
+        return self
+
+
+class RobotEntry(Entry):
+    """robot.yaml."""
+
+    name: Annotated[str, AfterValidator(lambda name: _checked_title(name))] = Field(
+        description="what the arm is called"
+    )
+    units: UnitsEntry = UnitsEntry()
+    convention: Convention = "standard-dh"
+    joints: Annotated[list[JointEntry], Field(min_length=1)] = Field(description="a list of one joint or more")
+
+
+def _checked_title(name: str) -> str:
+    if not name.strip() or not name.isprintable():
+        raise expected("a name of visible characters")
+    return name
+
+
+class RobotChoice(Entry):
+    """Where a campaign's robot comes from; a bare file name stands for {file: it}."""
+
+    file: str | None = None
+    catalogue: str | None = None
+    urdf: Any = None
+    base: Any = None
+    tip: Any = None
+
+    @model_validator(mode="after")
+    def _one_source(self) -> RobotChoice:
+        if self.urdf is not None or self.base is not None or self.tip is not None:
+            raise expected("a robot.yaml or {catalogue: NAME}; URDF robots are not supported yet")
+        if (self.file is None) == (self.catalogue is None):
+            raise expected("the name of a robot.yaml, or {catalogue: NAME}")
+        return self
+
+
+def _robot_choice(value: Any) -> Any:
+    if not isinstance(value, str | dict):
+        raise expected("the name of a robot.yaml, or {catalogue: NAME}")
+    return {"file": value} if isinstance(value, str) else value
+
+
+class SensorEntry(Entry):
+    """`sensor: {type: laser_ranger, noise_std: 0.0002, repeats: 10}`."""
+
+    type: Literal["laser_ranger", "position"] = Field(description="laser_ranger or position")
+    noise_std: Positive = Field(description="the standard deviation of one reading, in the length unit")
+    repeats: Annotated[int, Strict(), Field(ge=1, le=10**9)] = 1
+
+
+class FrameEntry(Entry):
+    """`base` or `mount`; None stands for `unknown`."""
+
+    xyz: KnownTriple = (0.0, 0.0, 0.0)
+    rpy: KnownTriple = (0.0, 0.0, 0.0)
+
+
+class PlaneEntry(Entry):
+    """`{type: plane, normal: [0, 1, 4.6], offset: -0.69}`."""
+
+    type: Literal["plane"] = Field(description="plane")
+    normal: Triple = Field(description="a list of 3 numbers, a direction at right angles to the plane")
+    offset: Number = Field(description="the number f of n·x + f = 0, in the length unit")
+
+
+class FreedomEntry(Entry):
+    """One line of `estimate`."""
+
+    parameters: Annotated[list[str], Field(min_length=1)] = Field(
+        description="a list of names such as j2.beta or *.theta"
+    )
+    within: Positive = Field(description="a number above 0, how far they may be from nominal")
+    prior_std: Positive | None = None
+
+
+class CampaignEntry(Entry):
+    """campaign.yaml."""
+
+    robot: Annotated[RobotChoice, BeforeValidator(_robot_choice)] = Field(
+        description="the name of a robot.yaml, or {catalogue: NAME}"
+    )
+    units: UnitsEntry = UnitsEntry()
+    sensor: SensorEntry = Field(description="a block such as {type: laser_ranger, noise_std: 0.0002}")
+    mount: FrameEntry = FrameEntry()
+    base: FrameEntry = FrameEntry()
+    targets: dict[Name, PlaneEntry] = {}
+    observations: str | None = None
+    validation: str | None = None
+    estimate: list[FreedomEntry] | None = None
+    fixed: list[str] = []

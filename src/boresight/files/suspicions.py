@@ -1,0 +1,103 @@
+"""What looks odd in readings that can be read: copies, joints beyond their limits, the wrong unit of angle."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from boresight.arm import Joint
+from boresight.files.problems import printable
+from boresight.sensing import Cell, Readings
+from boresight.units import Units
+
+_TWO_TURNS = 4.0 * math.pi
+"""No revolute joint reads more than this [rad]; in degrees almost every one does."""
+
+_ENOUGH_ROWS = 10
+"""With fewer rows, angles that are all small may simply be small."""
+
+_LINES_NAMED = 6
+
+
+def suspicions(readings: Readings, cell: Cell, units: Units, name: str) -> tuple[str, ...]:
+    """Returns what looks odd about the readings of a file, a sentence each."""
+    copies = _copies(readings, name)
+    angles = _wrong_angles(readings, cell, units, name)
+    # In the wrong unit every joint is beyond its limits: one sentence says it better than six.
+    beyond = [] if angles else _beyond_limits(readings, cell, units, name)
+    return tuple(printable(warning) for warning in (*copies, *angles, *beyond))
+
+
+def _copies(readings: Readings, name: str) -> list[str]:
+    """Rows that are the same to the bit."""
+    rows = np.column_stack([readings.joints, readings.values, readings.target])
+    keys = [row.tobytes() for row in rows]
+    counts = Counter(keys)
+    copies = len(keys) - len(counts)
+    if not copies:
+        return []
+    lines = [str(line) for key, line in zip(keys, readings.line, strict=True) if counts[key] > 1]
+    more = f" and {len(lines) - _LINES_NAMED} more" if len(lines) > _LINES_NAMED else ""
+    named = f"{', '.join(lines[:_LINES_NAMED])}{more}"
+    return [
+        f"{name}: {copies} {'row is an exact copy' if copies == 1 else 'rows are exact copies'} of others "
+        f"(lines {named}); all are kept and count as separate readings"
+    ]
+
+
+def _wrong_angles(readings: Readings, cell: Cell, units: Units, name: str) -> list[str]:
+    turning = np.array([joint.type == "revolute" for joint in cell.arm.joints])
+    if not turning.any():
+        return []
+    size = np.abs(readings.joints[:, turning]).max(axis=0)
+    if units.angle == "rad" and (size.max() > _TWO_TURNS or _fits_as_degrees(readings, cell, turning)):
+        joint = np.array(cell.arm.joint_names)[turning][size.argmax()]
+        return [
+            f"{name}: joint {joint} reads up to {size.max():.4g}, too much for radians: "
+            "if the file is in degrees, say units: {angle: deg} in the campaign"
+        ]
+    in_file = size / units.radians
+    if units.angle == "deg" and len(readings) >= _ENOUGH_ROWS and 0.0 < in_file.max() <= 2.0 * math.pi:
+        return [
+            f"{name}: no joint reads more than {in_file.max():.4g} degrees: "
+            "if the file is in radians, say units: {angle: rad} in the campaign"
+        ]
+    return []
+
+
+def _fits_as_degrees(readings: Readings, cell: Cell, turning: Bool[np.ndarray, " joints"]) -> bool:
+    """Whether readings that are far beyond the limits would all be within them as degrees."""
+    limits, joints = cell.arm.limits[turning], readings.joints[:, turning]
+    as_degrees = np.radians(joints)
+    return bool(_excess(joints, limits).max() > math.pi and _excess(as_degrees, limits).max() <= 0.0)
+
+
+def _excess(
+    joints: Float[np.ndarray, "rows joints"], limits: Float[np.ndarray, "joints 2"]
+) -> Float[np.ndarray, "rows joints"]:
+    """How far readings are beyond their limits; negative within."""
+    return np.maximum(limits[:, 0] - joints, joints - limits[:, 1])
+
+
+def _beyond_limits(readings: Readings, cell: Cell, units: Units, name: str) -> list[str]:
+    excess = _excess(readings.joints, cell.arm.limits)
+    rows, joints = excess.argmax(axis=0), range(len(cell.arm.joints))
+    counts = (excess > 1e-9).sum(axis=0)  # a limit of 170 degrees does not survive the way to radians to the bit
+    return [
+        _beyond(cell.arm.joints[j], readings.joints[rows[j], j], readings.line[rows[j]], counts[j], units, name)
+        for j in joints
+        if counts[j]
+    ]
+
+
+def _beyond(joint: Joint, worst: float, line: int, count: int, units: Units, name: str) -> str:
+    scale, unit = (units.radians, units.angle) if joint.type == "revolute" else (units.metres, units.length)
+    low, high = (limit / scale for limit in joint.limits)
+    others = f" ({count} rows in all)" if count > 1 else ""
+    return (
+        f"{name}: joint {joint.name} reads {worst / scale:.6g} {unit} on line {line}, "
+        f"beyond its limits {low:.6g} to {high:.6g} {unit}{others}"
+    )
