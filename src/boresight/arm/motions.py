@@ -81,9 +81,7 @@ class Chain:
         """Returns the chain with corrections [rad or m] added to the named amounts."""
         return Chain(
             tuple(
-                replace(motion, value=motion.value + corrections[motion.parameter])
-                if motion.parameter in corrections
-                else motion
+                replace(motion, value=motion.value + corrections.get(motion.parameter or "", 0.0))
                 for motion in self.motions
             ),
             self.joints,

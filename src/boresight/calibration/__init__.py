@@ -5,5 +5,6 @@ from boresight.calibration.campaign import Campaign as Campaign
 from boresight.calibration.campaign import Freedom as Freedom
 from boresight.calibration.campaign import SetAside as SetAside
 from boresight.calibration.result import Result as Result
+from boresight.calibration.simulate import simulate as simulate
 from boresight.calibration.solve import SOLVERS as SOLVERS
 from boresight.calibration.solve import Solver as Solver

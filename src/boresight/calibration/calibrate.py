@@ -66,6 +66,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         calibration=summarise("calibration rows", error_sizes(nominal, readings), error_sizes(identified, readings)),
         validation=held_out.residuals,
         outliers=find_outliers(problem, x),
+        readings=readings,
         errors={"before": problem.errors(np.zeros(len(x))), "after": problem.errors(x)},
         stated_std=float(np.median(readings.std)),
         model_std=excess,

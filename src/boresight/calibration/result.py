@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from boresight.calibration.campaign import SetAside
 from boresight.calibration.solve import Solution, Solver
-from boresight.sensing import Cell
+from boresight.sensing import Cell, Readings
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,6 +125,7 @@ class Result:
         calibration: errors of the rows that were fitted.
         validation: errors of rows that were not.
         outliers: rows that stand out.
+        readings: the rows that were fitted.
         errors: (rows, channels) predicted minus measured [m], before and after.
         stated_std: median stated standard deviation of a row's value [m].
         model_std: standard deviation [m] of what the model leaves unexplained.
@@ -149,6 +150,7 @@ class Result:
     calibration: Residuals
     validation: Residuals
     outliers: tuple[Outlier, ...]
+    readings: Readings
     errors: Mapping[str, Float[np.ndarray, "rows channels"]]
     stated_std: float
     model_std: float

@@ -14,6 +14,8 @@ from boresight.search.box import Box
 from boresight.search.evolution import DifferentialEvolution, Population, ask, seed_population, tell
 from boresight.search.stopping import Outcome, Stops
 
+_STRETCH_SECONDS = 0.1
+
 Cost = Callable[[Float[np.ndarray, "members parameters"]], Float[np.ndarray, "members"]]
 """Returns the cost of every member."""
 
@@ -105,11 +107,11 @@ def evolve(
     seed: int = 0,
     run: int = 0,
     on_progress: Callable[[int, float], None] | None = None,
-    stretch: int = 25,
 ) -> Evolved:
     """Returns the best member found (paper, section 3.3, steps 3 to 9).
 
-    The answer depends on the seed and the run, never on `stretch`.
+    It comes back to Python about ten times a second, to report and so that it can be interrupted; the answer
+    depends on the seed and the run alone.
 
     Args:
         cost: returns the cost of (members, parameters); NaN counts as infinite.
@@ -119,7 +121,6 @@ def evolve(
         seed: any whole number.
         run: number of the run under that seed.
         on_progress: called now and then with generations completed and the best cost.
-        stretch: generations between such calls.
     """
     settings, stops = settings or DifferentialEvolution(), stops or Stops()
     started = time.perf_counter()
@@ -130,9 +131,12 @@ def evolve(
     history = [np.array([[population.best_cost, float(np.mean(population.costs))]])]
     advance = cost.advance if isinstance(cost, CompiledCost) else _advance_by_calls(cost)
     outcome = stops.outcome(0, population.best_cost, 0)
+    stretch = 1
     while outcome is Outcome.RUNNING:
         ahead = min(stretch, stops.generations - (population.generation - 1))
+        began = time.perf_counter()
         done = advance(settings, box, population, staleness, stops, ahead)
+        stretch = max(1, min(4 * stretch, int(stretch * _STRETCH_SECONDS / (time.perf_counter() - began + 1e-9))))
         population, staleness = done.population, done.staleness
         history.append(done.history)
         outcome = stops.outcome(population.generation - 1, population.best_cost, staleness.generations)

@@ -1,0 +1,79 @@
+"""`boresight calibrate`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from boresight import __version__
+from boresight.calibration import Solver, calibrate
+from boresight.cli.app import REJECTED
+from boresight.errors import InputError
+from boresight.files import load_campaign
+from boresight.kernels.compiling import first_compile_ahead
+from boresight.kernels.evolving import evolve_generations
+from boresight.report.document import result_json
+from boresight.report.folder import check_writable, write_result
+from boresight.report.summary import print_summary
+from boresight.search import STRATEGIES, DifferentialEvolution, Stops
+
+
+def run_calibrate(
+    path: Path,
+    output: Path | None,
+    *,
+    solver: str,
+    strategy: str,
+    population: int,
+    generations: int,
+    seed: int,
+    as_json: bool,
+) -> int:
+    """Returns the exit code of a calibration, its result written and shown."""
+    settings = _solver(solver, strategy, population, generations, seed)
+    campaign = load_campaign(path, need_readings=True)
+    folder = output or Path(f"{campaign.name}-result")
+    check_writable(folder)
+    errors = Console(stderr=True)
+    if first_compile_ahead(evolve_generations):
+        errors.print("Compiling the search for this machine; this happens once and takes about ten seconds.")
+    with Progress(
+        TextColumn("evolution"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("generations, best {task.fields[best]} mm RMS"),
+        TimeRemainingColumn(),
+        console=errors,
+        transient=True,
+        disable=as_json or not errors.is_terminal,
+    ) as progress:
+        task = progress.add_task("evolution", total=generations, best="?", visible=solver != "least-squares")
+        values = campaign.readings.values.size if campaign.readings else 1
+
+        def show(generation: int, cost: float) -> None:
+            progress.update(task, completed=generation, best=f"{1e3 * (cost / values) ** 0.5:.3f}")
+
+        result = calibrate(campaign, settings, show)
+    written = write_result(result, folder, __version__)
+    if as_json:
+        sys.stdout.write(result_json(result, __version__))
+    else:
+        print_summary(Console(), result, written)
+    return 0 if result.verdict.accepted else REJECTED
+
+
+def _solver(solver: str, strategy: str, population: int, generations: int, seed: int) -> Solver:
+    problems = []
+    if population < 5:
+        problems.append(f"--population: expected at least 5 members, got {population}; the paper uses 150")
+    if generations < 1:
+        problems.append(f"--generations: expected at least 1, got {generations}; the paper uses 500")
+    if seed < 0:
+        problems.append(f"--seed: expected a whole number from 0, got {seed}")
+    if problems:
+        raise InputError(problems)
+    evolution = DifferentialEvolution(STRATEGIES[strategy], population)
+    return Solver(solver, evolution, Stops(generations), seed)  # type: ignore[arg-type]

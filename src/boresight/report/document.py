@@ -1,0 +1,120 @@
+"""A result as plain data: the text of `result.json`."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+from boresight.calibration.result import ErrorSummary, Residuals, Result
+from boresight.calibration.solve import Stage
+from boresight.geometry import Frame
+
+SCHEMA = "boresight-result/1"
+"""Name and version of the layout; the number grows when a key changes its meaning or goes."""
+
+
+def result_document(result: Result, version: str) -> dict[str, Any]:
+    """Returns a result as dictionaries, lists, numbers and strings; lengths in m, angles in rad.
+
+    Args:
+        result: the result.
+        version: of the software that made it.
+    """
+    return {
+        "schema": SCHEMA,
+        "name": result.name,
+        "version": version,
+        "seed": result.solver.seed,
+        "verdict": {"accepted": result.verdict.accepted, "reasons": list(result.verdict.reasons)},
+        "residuals": {"calibration": _residuals(result.calibration), "validation": _residuals(result.validation)},
+        "parameters": [
+            {
+                "name": estimate.name,
+                "unit": estimate.unit,
+                "nominal": estimate.nominal,
+                "identified": estimate.identified,
+                "correction": estimate.correction,
+                "std": estimate.std,
+                "source": estimate.source,
+            }
+            for estimate in result.estimates
+        ],
+        "identifiability": {
+            "free": result.free,
+            "rank": result.rank,
+            "unseen": [{"parameters": list(unseen.parameters), "words": unseen.words} for unseen in result.unseen],
+        },
+        "noise": {"unit": "m", "stated_std": result.stated_std, "model_std": result.model_std},
+        "frames": {"base": _frame(result.cell.base), "mount": _frame(result.cell.mount)},
+        "targets": {
+            name: {"normal": list(plane.normal), "offset": plane.offset} for name, plane in result.cell.targets.items()
+        },
+        "outliers": [
+            {"line": outlier.line, "residual": outlier.residual_m, "unit": "m", "ratio": _number(outlier.ratio)}
+            for outlier in result.outliers
+        ],
+        "set_aside": [{"file": row.file, "line": row.line, "reason": row.reason} for row in result.set_aside],
+        "warnings": list(result.warnings),
+        "notes": list(result.notes),
+        "search": _search(result),
+        "inputs": dict(result.inputs),
+    }
+
+
+def result_json(result: Result, version: str) -> str:
+    """Returns the text of `result.json`."""
+    return json.dumps(result_document(result, version), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _residuals(residuals: Residuals) -> dict[str, Any]:
+    return {
+        "unit": "m",
+        "count": residuals.count,
+        "missed": residuals.missed,
+        "method": residuals.method,
+        "before": _summary(residuals.before),
+        "after": _summary(residuals.after),
+    }
+
+
+def _summary(summary: ErrorSummary) -> dict[str, float | None]:
+    return {"rms": _number(summary.rms), "max": _number(summary.max)}
+
+
+def _search(result: Result) -> dict[str, Any]:
+    solver, solution = result.solver, result.solution
+    evolution = solver.evolution
+    return {
+        "solver": solver.name,
+        "strategy": evolution.strategy.name,
+        "population": evolution.population,
+        "F": evolution.scale,
+        "CR": evolution.crossover,
+        "K": evolution.scale if evolution.strategy.pull is None else evolution.strategy.pull,
+        "generations": {"limit": solver.stops.generations, "run": max(len(solution.history) - 1, 0)},
+        "stages": [_stage(stage) for stage in solution.stages],
+        "least_squares_from_nominal": None if solution.nominal is None else _stage(solution.nominal),
+        "least_squares_from_nominal_suffices": solution.nominal_suffices,
+    }
+
+
+def _stage(stage: Stage) -> dict[str, Any]:
+    return {
+        "name": stage.name,
+        "cost": _number(stage.cost),
+        "rms": _number(stage.rms_m),
+        "unit": "m",
+        "seconds": round(stage.seconds, 6),
+        "evaluations": stage.evaluations,
+        "outcome": stage.outcome,
+    }
+
+
+def _frame(frame: Frame) -> dict[str, list[float]]:
+    return {"xyz": list(frame.xyz), "rpy": list(frame.rpy)}
+
+
+def _number(value: float) -> float | None:
+    """Returns a number that JSON has: infinities and NaN have none."""
+    return float(value) if math.isfinite(value) else None

@@ -1,0 +1,106 @@
+"""The result folder: every file whole or not at all, and an accepted result never overwritten by a rejected one."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import shutil
+import tempfile
+from pathlib import Path
+
+from boresight.calibration.result import Result
+from boresight.errors import OutputError
+from boresight.files import dump_robot
+from boresight.report.document import SCHEMA, result_json
+from boresight.report.page import render_page
+from boresight.report.tables import convergence_csv, residuals_csv
+
+RESULT_FILE = "result.json"
+_OURS = ("robot-calibrated.yaml", "residuals.csv", "convergence.csv", "report.html", RESULT_FILE)
+
+
+def write_result(result: Result, folder: Path, version: str) -> Path:
+    """Returns the folder a result was written to: the one asked for, or one beside it for a rejected result.
+
+    Files are written to a temporary folder and renamed, `result.json` last, so that an interrupted run leaves
+    what was there.
+
+    Args:
+        result: the result.
+        folder: where to write; created if need be.
+        version: of the software that made it.
+
+    Raises:
+        OutputError: the folder cannot be written, or holds files of the same names that are not a result.
+    """
+    chosen = folder
+    if not result.verdict.accepted and _holds_accepted(folder):
+        chosen = folder.with_name(f"{folder.name}-rejected")
+    check_writable(chosen)
+    contents = {
+        "robot-calibrated.yaml": dump_robot(result.cell.arm, _robot_comment(result)),
+        "residuals.csv": residuals_csv(result),
+        "convergence.csv": convergence_csv(result),
+        "report.html": render_page(result, version),
+        RESULT_FILE: result_json(result, version),
+    }
+    try:
+        chosen.mkdir(parents=True, exist_ok=True)
+        with _staging(chosen) as staging:
+            for name, text in contents.items():
+                (staging / name).write_text(text, encoding="utf-8", newline="\n")
+            for name in contents:
+                os.replace(staging / name, chosen / name)
+    except OSError as error:
+        raise OutputError(f"{chosen}: cannot write the result: {error.strerror or error}") from error
+    return chosen
+
+
+def check_writable(folder: Path) -> None:
+    """Checks that a result can be written to a folder, before anyone waits for it.
+
+    Raises:
+        OutputError: it cannot, or the folder holds files of the same names that are not a result.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise OutputError(f"{folder}: is a file; name a folder for the result with -o")
+    existing = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
+    if not existing.is_dir() or not os.access(existing, os.W_OK | os.X_OK):
+        raise OutputError(f"{folder}: cannot be written; name another folder for the result with -o")
+    taken = [name for name in _OURS if (folder / name).exists()]
+    if taken and _schema(folder) is None:
+        raise OutputError(
+            f"{folder}: holds {', '.join(taken)} but no Boresight result; nothing is overwritten: name another folder "
+            "with -o"
+        )
+
+
+def _holds_accepted(folder: Path) -> bool:
+    try:
+        return bool(json.loads((folder / RESULT_FILE).read_text(encoding="utf-8"))["verdict"]["accepted"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return False
+
+
+def _schema(folder: Path) -> str | None:
+    try:
+        schema = json.loads((folder / RESULT_FILE).read_text(encoding="utf-8")).get("schema")
+    except (OSError, ValueError, AttributeError):
+        return None
+    return schema if isinstance(schema, str) and schema.split("/")[0] == SCHEMA.split("/")[0] else None
+
+
+@contextlib.contextmanager
+def _staging(folder: Path):
+    """Yields a temporary folder on the same file system, and removes it."""
+    staging = Path(tempfile.mkdtemp(prefix=".boresight-", dir=folder))
+    try:
+        yield staging
+    finally:
+        shutil.rmtree(staging, ignore_errors=True)
+
+
+def _robot_comment(result: Result) -> str:
+    verdict = "accepted" if result.verdict.accepted else "REJECTED"
+    return f"{result.name}, calibrated by Boresight ({verdict}); see result.json for uncertainty and frames"

@@ -1,0 +1,89 @@
+"""A result on a terminal, to be read in ten seconds."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rich.console import Console, Group, RenderableType
+from rich.markup import escape
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from boresight.calibration.result import Residuals, Result
+from boresight.units import in_millimetres
+
+_FEW = 5
+
+
+def print_summary(console: Console, result: Result, folder: Path) -> None:
+    """Prints verdict, before and after, what was not seen, how the search went, and where the files are."""
+    accepted = result.verdict.accepted
+    word, colour = ("ACCEPTED", "bold green") if accepted else ("REJECTED", "bold red")
+    console.print(Text.assemble((word, colour), "  ", (result.name, "bold")))
+    console.print(_indented(Group(*(Text(reason) for reason in result.verdict.reasons))))
+    console.print(_errors_table(result))
+    console.print(_indented(Group(*_facts(result))))
+    for warning in result.warnings:
+        console.print(f"[yellow]Warning:[/] {escape(warning)}")
+    for note in result.notes:
+        console.print(f"Note: {escape(note)}")
+    console.print(f"Files: [bold]{escape(str(folder))}/[/]  (open report.html)", soft_wrap=True)
+
+
+def _errors_table(result: Result) -> Table:
+    kind = "range error" if result.cell.sensor.needs_target else "position error"
+    table = Table(box=None, padding=(0, 2), pad_edge=True)
+    table.add_column(kind, style="bold")
+    table.add_column("rows", justify="right")
+    for when in ("before", "after"):
+        table.add_column(f"{when}: RMS", justify="right")
+        table.add_column("max", justify="right")
+    table.add_row("held out", *_error_cells(result.validation))
+    table.add_row("calibration", *_error_cells(result.calibration))
+    return table
+
+
+def _error_cells(residuals: Residuals) -> tuple[str, ...]:
+    sizes = (residuals.before.rms, residuals.before.max, residuals.after.rms, residuals.after.max)
+    return (str(residuals.count), *(in_millimetres(size) for size in sizes))
+
+
+def _facts(result: Result) -> list[RenderableType]:
+    facts = [_seen(result), _searched(result)]
+    prior = [e.name for e in result.estimates if e.source == "prior"]
+    if prior:
+        facts.append(f"Mostly prior: {_some(prior)} moved little because the data say little about them.")
+    if result.outliers:
+        lines = [f"line {outlier.line} ({in_millimetres(outlier.residual_m)})" for outlier in result.outliers]
+        facts.append(f"Outliers: {_some(lines)} do not fit with the other rows.")
+    if result.set_aside:
+        rows = [f"{row.file} line {row.line} ({row.reason})" for row in result.set_aside]
+        facts.append(f"Set aside: {_some(rows)}.")
+    return [Text(fact) for fact in facts]
+
+
+def _seen(result: Result) -> str:
+    if not result.unseen:
+        return f"Seen: all {result.free} free parameters."
+    words = "; ".join(unseen.words for unseen in result.unseen)
+    return f"Not seen: {result.free - result.rank} of {result.free} directions. {words}."
+
+
+def _searched(result: Result) -> str:
+    solution = result.solution
+    ran = ", then ".join(f"{stage.name} ({stage.seconds:.2f} s: {stage.outcome})" for stage in solution.stages)
+    said = f"Search: {ran}."
+    if solution.nominal_suffices is None or result.solver.name == "least-squares":
+        return said
+    also = "would have found the same" if solution.nominal_suffices else "would have ended elsewhere, with a worse fit"
+    return f"{said} Least squares from the nominal model alone {also}."
+
+
+def _some(items: list[str]) -> str:
+    shown = ", ".join(items[:_FEW])
+    return shown if len(items) <= _FEW else f"{shown} and {len(items) - _FEW} more"
+
+
+def _indented(content: RenderableType) -> Padding:
+    return Padding(content, (0, 0, 0, 2))
