@@ -31,6 +31,10 @@ MISSED = 1e4
 than anything the other ranges can do."""
 
 
+WORST = 1e300
+"""The cost of what was not evaluated, or is not a number: compiled comparisons are not made for infinities."""
+
+
 class Program(NamedTuple):
     """How a member, a column of a (parameters, members) array of corrections, becomes links and planes.
 

@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Float
 
 from boresight.kernels.breeding import Breeding, breed, draws_for, select, sow, summarise
-from boresight.kernels.programs import padded
+from boresight.kernels.programs import WORST, padded
 from boresight.kernels.random import run_key
 from boresight.search.box import Box
 from boresight.search.strategies import TRADE_OFF, Strategy
@@ -57,7 +57,7 @@ class Population:
     Attributes:
         key: key of the run's random numbers.
         lanes: (parameters, lanes) members as columns, padded to whole tiles by copies of the first.
-        costs: (members,) their costs; infinite before the first `tell`.
+        costs: (members,) their costs; `WORST` before the first `tell`.
         generation: generations completed; 0 before the first `tell`.
     """
 
@@ -87,7 +87,7 @@ def seed_population(settings: DifferentialEvolution, box: Box, seed: int, run: i
     lanes = np.empty((len(box), padded(settings.population)))
     key = int(run_key(np.uint64(seed), np.uint64(run)))
     sow(np.uint64(key), box.lower, box.upper, settings.population, lanes)
-    return Population(key, lanes, np.full(settings.population, np.inf))
+    return Population(key, lanes, np.full(settings.population, WORST))
 
 
 def ask(settings: DifferentialEvolution, box: Box, population: Population) -> Float[np.ndarray, "members parameters"]:
@@ -115,5 +115,6 @@ def tell(
 ) -> Population:
     """Returns the next generation: of each member and its trial, the cheaper (paper, eq. 18)."""
     lanes, kept = population.lanes.copy(), population.costs.copy()
-    select(lanes[:, : len(kept)], kept, np.ascontiguousarray(trials.T), np.nan_to_num(costs, nan=np.inf))
+    told = np.where(np.isnan(costs), WORST, np.minimum(costs, WORST))
+    select(lanes[:, : len(kept)], kept, np.ascontiguousarray(trials.T), told)
     return replace(population, lanes=lanes, costs=kept, generation=population.generation + 1)

@@ -114,7 +114,7 @@ def evolve(
     depends on the seed and the run alone.
 
     Args:
-        cost: returns the cost of (members, parameters); NaN counts as infinite.
+        cost: returns the cost of (members, parameters); NaN counts as worse than anything.
         box: where to search.
         settings: strategy, Np, F and CR; the paper's by default.
         stops: G, V and patience; the paper's by default.

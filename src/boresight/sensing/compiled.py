@@ -12,7 +12,7 @@ from boresight.arm import Chain, Motion
 from boresight.geometry import Plane
 from boresight.kernels.breeding import draws_for
 from boresight.kernels.evolving import evolve_generations
-from boresight.kernels.programs import FIXED, SHIFT, TURN, Program, Rows, padded, workspace
+from boresight.kernels.programs import FIXED, SHIFT, TURN, WORST, Program, Rows, padded, workspace
 from boresight.kernels.sweeping import sweep
 from boresight.search import Box, DifferentialEvolution, Population, Staleness, Stops, Stretch
 from boresight.sensing.cell import Cell
@@ -121,7 +121,7 @@ class CompiledCost:
         """Returns the population some generations later, or at the first stop."""
         count = len(population.costs)
         lanes = population.lanes.copy()
-        costs = np.full(lanes.shape[1], np.inf)
+        costs = np.full(lanes.shape[1], WORST)
         costs[:count] = population.costs
         history = np.empty((generations, 2))
         done, stale, reference = evolve_generations(

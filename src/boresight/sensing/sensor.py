@@ -52,8 +52,6 @@ class Sensor(Protocol):
         type: its name in campaign files.
         channels: names of the values it reports, as columns of an observations file.
         needs_target: whether it must point at a named target.
-        noise_std: standard deviation of one reading of one channel.
-        repeats: readings averaged in a row, unless the row says otherwise.
         readouts: the compiled form of each channel.
     """
 
@@ -61,8 +59,16 @@ class Sensor(Protocol):
     channels: ClassVar[tuple[str, ...]]
     needs_target: ClassVar[bool]
     readouts: ClassVar[tuple[Readout, ...]]
-    noise_std: float
-    repeats: int
+
+    @property
+    def noise_std(self) -> float:
+        """Standard deviation of one reading of one channel [m]."""
+        ...
+
+    @property
+    def repeats(self) -> int:
+        """Readings averaged in a row, unless the row says otherwise."""
+        ...
 
     def predict(self, poses: Float[np.ndarray, "rows 4 4"], target: Plane | None) -> Float[np.ndarray, "rows channels"]:
         """Returns what it would read at tool poses `T_world_sensor`; NaN where it cannot see the target."""
