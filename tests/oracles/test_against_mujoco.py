@@ -56,7 +56,7 @@ def compare(cell, joints) -> tuple[int, int]:
         oracle.move(configuration)
         np.testing.assert_allclose(oracle.pose, poses[row], rtol=0, atol=TOLERANCE_M)
         for plane in np.flatnonzero(steep[row]):
-            expected = oracle.range_to(plane)
+            expected = oracle.range_to(int(plane))
             missed = np.isnan(ranges[row, plane])
             assert (expected == -1.0) == missed
             assert missed or abs(ranges[row, plane] - expected) < TOLERANCE_M
