@@ -231,3 +231,11 @@ def test_a_hundred_thousand_rows_are_read_to_the_bit(folder):
     readings = folder.write(observations=text).load().readings
     assert np.array_equal(readings.joints, numbers[:, :2])
     assert np.array_equal(readings.values, numbers[:, 2:])
+
+
+def test_a_file_full_of_faults_is_refused_without_delay(folder, two_targets):
+    rows = "".join(f"1,2,3,wall{i}\n" for i in range(20_000))
+    problems = folder.write(campaign=two_targets, observations="j1,j2,range,target\n" + rows).problems()
+    assert problems[-1] == "and 19980 more"
+    header = ",".join(f"j{i}" for i in range(20_000))
+    assert len(folder.write(observations=header + "\n").problems()) == 21

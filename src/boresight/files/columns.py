@@ -120,7 +120,7 @@ def _check_names(header: Sequence[str], cell: Cell, channels: Sequence[str], pla
         elif counts[name] > 1 and column == header.index(name) + 1:
             problems.add(f"{place}there are several columns {shown(name)}; expected one")
         elif name not in known:
-            near = did_you_mean(name[:60], known)
+            near = "" if problems.full else did_you_mean(name[:60], known)
             others = f"{listed(needed)} and, if wanted, {listed(optional)}"
             problems.add(f"{place}unknown column {shown(name)}{near}; expected columns {others}")
     for name in needed:

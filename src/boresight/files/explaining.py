@@ -9,7 +9,8 @@ from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 
 from boresight.errors import did_you_mean
-from boresight.files.documents import Document, KeyPath
+from boresight.files.composing import KeyPath
+from boresight.files.documents import Document
 from boresight.files.problems import LISTED, Problems, listed, shown
 
 Schema = TypeVar("Schema", bound=BaseModel)

@@ -38,9 +38,14 @@ class Problems:
         """Whether there is any."""
         return bool(self._listed)
 
+    @property
+    def full(self) -> bool:
+        """Whether further faults are only counted, so that looking for helpful words is wasted."""
+        return len(self._listed) == LISTED
+
     def add(self, problem: str) -> None:
         """Adds one fault, a sentence."""
-        if len(self._listed) < LISTED:
+        if not self.full:
             self._listed.append(printable(problem))
         else:
             self._more += 1

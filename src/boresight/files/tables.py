@@ -1,0 +1,139 @@
+"""The cells of an observations file as numbers, with the faults that no number can be made of."""
+
+from __future__ import annotations
+
+import csv
+import io
+from array import array
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from operator import itemgetter
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from boresight.errors import InputError, did_you_mean
+from boresight.files.columns import Columns, read_columns
+from boresight.files.problems import Problems, listed, printable, shown
+from boresight.files.sources import Source
+from boresight.sensing import Cell
+from boresight.units import Units
+
+
+@dataclass(frozen=True)
+class Table:
+    """The numbers of a file in its own units; empty cells are NaN.
+
+    Attributes:
+        columns: what they mean.
+        numbers: (rows, numeric columns).
+        target: (rows,) index of the target; -1 where the cell is empty.
+        line: (rows,) line in the file.
+        empty: names of the empty cells, by line.
+    """
+
+    columns: Columns
+    numbers: Float[np.ndarray, "rows columns"]
+    target: Int[np.ndarray, " rows"]
+    line: Int[np.ndarray, " rows"]
+    empty: dict[int, list[str]]
+
+    def reason(self, row: int) -> str:
+        """Returns why a row cannot be used."""
+        columns, numbers = self.columns, self.numbers[row]
+        empty = self.empty.get(int(self.line[row]), [])
+        reasons = [
+            f"{name} is empty" if name in empty else f"{name} is {number:g}"
+            for name, number in zip(columns.names, numbers, strict=True)
+            if not np.isfinite(number)
+        ]
+        reasons += ["target is empty"] if self.target[row] < 0 else []
+        if not reasons:
+            value = numbers[columns.joints]
+            reasons = [f"{columns.names[columns.joints]} is {value:g}, and a range is above 0"]
+        return "; ".join(reasons)
+
+
+def read_table(source: Source, cell: Cell, units: Units, problems: Problems) -> Table:
+    """Returns the numbers of an observations file; they make no sense where a problem was added.
+
+    Args:
+        source: the file.
+        cell: the arm, the sensor and the targets that it is about.
+        units: the units it is written in.
+        problems: where faults are added.
+    """
+    lines = _rows(source)
+    line, header = next(lines, (1, []))
+    if not header:
+        raise InputError(f"{source.name}: the file is empty; expected a row of column names and then readings")
+    columns = read_columns([name.strip() for name in header], cell, units, f"{source.name}, line {line}: ", problems)
+    problems.raise_if_any()
+    place_of = {name: place for place, name in enumerate(cell.targets)}
+    numeric = itemgetter(*columns.places)
+    # Flat arrays of machine numbers: a million rows of Python floats would not fit in the memory they deserve.
+    numbers, target, line_numbers = array("d"), array("q"), array("q")
+    empty: dict[int, list[str]] = {}
+    for line, cells in lines:
+        if len(cells) != columns.width:
+            problems.add(f"{source.name}, line {line}: {len(cells)} cells; expected {columns.width}, as in the header")
+            continue
+        if columns.target is not None:
+            given = cells[columns.target].strip()
+            if given and given not in place_of:
+                near = "" if problems.full else did_you_mean(given[:60], place_of)
+                where = f"{source.name}, line {line}: "
+                problems.add(f"{where}there is no target {shown(given)}{near}; the targets are {listed(place_of)}")
+            target.append(place_of.get(given, -1))
+        given_numbers = numeric(cells)
+        try:
+            if "_" in "".join(given_numbers):  # float() takes 1_000 for a thousand
+                raise ValueError
+            numbers.extend(list(map(float, given_numbers)))
+        except ValueError:
+            where = f"{source.name}, line {line}: "
+            numbers.extend(_cell_by_cell(given_numbers, columns, empty.setdefault(line, []), where, problems))
+        line_numbers.append(line)
+    count = len(line_numbers)
+    return Table(
+        columns,
+        np.array(numbers, dtype=float).reshape(count, len(columns.names)),
+        np.array(target, dtype=np.int64) if columns.target is not None else np.zeros(count, dtype=np.int64),
+        np.array(line_numbers, dtype=np.int64),
+        empty,
+    )
+
+
+def _rows(source: Source) -> Iterator[tuple[int, list[str]]]:
+    """Yields (line, cells) of every row that is not blank; `#` begins a comment."""
+    text = io.TextIOWrapper(io.BytesIO(source.content), encoding="utf-8-sig", newline=None)
+    reader = csv.reader((line.partition("#")[0] for line in text), strict=True)
+    try:
+        for cells in reader:
+            if len(cells) > 1 or (cells and cells[0].strip()):
+                yield reader.line_num, cells
+    except UnicodeDecodeError:
+        raise InputError(f"{source.name}: the file is not UTF-8 text; save it as CSV in UTF-8") from None
+    except csv.Error as error:
+        where = f"{source.name}, line {reader.line_num}: "
+        raise InputError(printable(f"{where}not valid CSV: {error}; is a quotation mark left open?")) from None
+
+
+def _cell_by_cell(
+    cells: Sequence[str], columns: Columns, empty: list[str], where: str, problems: Problems
+) -> list[float]:
+    """Returns a row's numbers where some cell is not one, and notes which."""
+    numbers = []
+    for name, text in zip(columns.names, cells, strict=True):
+        number = float("nan")
+        if not text.strip():
+            empty.append(name)
+        else:
+            try:
+                number = float(text if "_" not in text else "")
+            except ValueError:
+                problems.add(
+                    f"{where}{name}: got {shown(text)}; expected a number, or an empty cell where there is none"
+                )
+        numbers.append(number)
+    return numbers
