@@ -1,6 +1,7 @@
 """Whatever is in the files, an `InputError` is the worst that happens."""
 
 import contextlib
+import json
 import random
 
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 
 from boresight.errors import InputError
 from boresight.files import load_campaign, load_robot
+from boresight.files.documents import read_document
 
 FUZZ = settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
 SPLICES = [
@@ -60,3 +62,29 @@ def test_mutated_files_are_never_a_traceback(folder, file, seed):
     folder.write(**{file: mutated(text, seed).encode("utf-8")})
     with contextlib.suppress(InputError):
         load_campaign("campaign.yaml")
+
+
+ODD_NUMBERS = [None, True, 0, -1, 2**70, 1e308, -1e-320]
+ODD_WORDS = ["", "x", "*", "[", "unknown", "j1.*", "/", "\x00"]
+VALUES = st.sampled_from([*ODD_NUMBERS, *ODD_WORDS, [], {}, [0, 0], [1e308] * 3])
+
+
+def respelt(value, draw):
+    """The same data with some part put in place of another."""
+    if draw(st.integers(0, 14)) == 0:
+        return draw(VALUES)
+    if isinstance(value, dict):
+        return {key: respelt(item, draw) for key, item in value.items()}
+    return [respelt(item, draw) for item in value] if isinstance(value, list) else value
+
+
+@FUZZ
+@given(data=st.data())
+def test_values_of_any_kind_in_any_place_are_never_a_traceback(folder, data):
+    for file in ("campaign", "robot"):
+        good = read_document(folder.write().path / f"{file}.yaml").data
+        frame = {"base": {"xyz": "unknown", "rpy": [0, 0, 1]}} if file == "campaign" else {}
+        spoilt = json.dumps(respelt(good | frame, data.draw))
+        folder.write(**{file: spoilt})
+        with contextlib.suppress(InputError):
+            load_campaign("campaign.yaml")
