@@ -69,7 +69,8 @@ def log_axis(low: float, high: float, start: float, end: float) -> Axis:
     factors = (1, 2, 5) if last - first == 1 else (1,)
     values = [factor * 10.0**power for power in range(first, last + 1, every) for factor in factors]
     values = [value for value in values if value <= 10.0**last * (1 + 1e-9)]
-    return _axis(10.0**first, 10.0**last, start, end, True, values, [_power(value) for value in values])
+    texts = [_plain(value) if first >= -4 and last <= 4 else _power(value) for value in values]
+    return _axis(10.0**first, 10.0**last, start, end, True, values, texts)
 
 
 def _axis(
@@ -91,9 +92,11 @@ def _signed(value: float, decimals: int) -> str:
     return text.replace("-", "−") if float(text.replace(",", "")) else text.lstrip("-")
 
 
+def _plain(value: float) -> str:
+    return f"{value:,.0f}" if value > 0.99 else f"{value:.4f}".rstrip("0")
+
+
 def _power(value: float) -> str:
-    if 0.99e-4 < value < 1e5:
-        return f"{value:,.0f}" if value > 0.99 else f"{value:.4f}".rstrip("0")
     power = math.floor(math.log10(value) + 1e-9)
     factor = round(value / 10.0**power)
     return ("" if factor == 1 else f"{factor}·") + "10" + str(power).translate(_SUPERSCRIPTS)

@@ -69,6 +69,7 @@ def render_page(result: Result, version: str) -> str:
             convergence=convergence_chart(result.solution.history),
             corrections=correction_charts(result.estimates),
             groups=tuple(groups(result.estimates)),
+            held=tuple(estimate for estimate in result.estimates if estimate.source == "prior"),
             fixed=tuple(estimate for estimate in result.estimates if estimate.source == "fixed"),
             channels=channels,
             noise=result.stated_std * math.sqrt(channels),
@@ -118,6 +119,11 @@ def duration(seconds: float) -> str:
     return f"{seconds * 1e3:.3g} ms" if seconds < 1.0 else f"{seconds:,.1f} s"
 
 
+def cost(value: float) -> str:
+    """Returns a cost with five digits that matter."""
+    return f"{value:,.0f}" if 1e4 <= value < 1e12 else f"{value:.5g}"
+
+
 def _times(ratio: float) -> str:
     return f"{ratio:.2f}" if ratio < 2.0 else f"{ratio:.1f}" if ratio < 10.0 else f"{ratio:,.0f}"
 
@@ -140,6 +146,6 @@ def _environment() -> Environment:
         "degrees": partial(number, factor=180.0 / math.pi, decimals=4),
         "number": number,
         "count": "{:,}".format,
-        "cost": "{:,.5g}".format,
+        "cost": cost,
     }
     return environment
