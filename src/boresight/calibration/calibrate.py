@@ -13,12 +13,15 @@ from boresight.calibration.frames import find_frames
 from boresight.calibration.freedom import freedoms_of
 from boresight.calibration.holdout import by_cross_validation, error_sizes, on_validation_rows, summarise
 from boresight.calibration.outliers import find_outliers
-from boresight.calibration.problem import Problem, problem_of
+from boresight.calibration.problem import Problem
 from boresight.calibration.result import Result, Unseen
 from boresight.calibration.solve import Progress, Solver, refine, solve
 from boresight.calibration.verdict import judge
 from boresight.errors import InputError
 from boresight.inference import identify_directions, model_std, posterior_covariance, unseen_in_words
+
+_ROUGH = 10
+"""Evaluations of the fit that tells what standard deviations to search with."""
 
 _REWEIGHTINGS = 5
 """How often the model's own standard deviation and the fit may be found in turn; they settle in two or three."""
@@ -43,7 +46,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
     freedoms = freedoms_of(campaign, nominal)
     if not freedoms:
         raise InputError(f"{campaign.name}: every parameter is fixed, so there is nothing to calibrate")
-    problem = problem_of(nominal, readings, freedoms)
+    problem = _with_rough_excess(Problem(nominal, readings, freedoms))
     solution = solve(problem, solver, on_progress)
     problem, x, excess = _explain_residuals(problem, solution.x, polish=solver.name != "evolution")
     identified = problem.fitted(x)
@@ -81,19 +84,29 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
     )
 
 
+def _with_rough_excess(problem: Problem) -> Problem:
+    """Returns the problem with standard deviations that a quick fit could explain.
+
+    Readings that are stated far better than the arm can be modelled would otherwise drag parameters that they
+    hardly see to the ends of their bounds, and the search with them: 270 evaluations instead of 10.
+    """
+    rough = problem.errors(refine(problem, np.zeros(len(problem.names)), evaluations=_ROUGH).best)
+    seen = np.isfinite(rough)
+    return problem.with_model_std(model_std(rough[seen], problem.std[seen], len(problem.names)))
+
+
 def _explain_residuals(
     problem: Problem, x: Float[np.ndarray, "parameters"], polish: bool
 ) -> tuple[Problem, Float[np.ndarray, "parameters"], float]:
     """Returns the problem whose standard deviations explain its residuals, its optimum, and the model's own std."""
-    stated = problem
-    excess = 0.0
+    excess = problem.model_std
     for _ in range(_REWEIGHTINGS):
-        errors = stated.errors(x)
+        errors = problem.errors(x)
         seen = np.isfinite(errors)
-        last, excess = excess, model_std(errors[seen], stated.readings.std[seen], len(x))
+        last, excess = excess, model_std(errors[seen], problem.readings.std[seen], len(x))
         if abs(excess - last) <= 0.01 * excess:
             break
-        problem = stated.with_model_std(excess)
+        problem = problem.with_model_std(excess)
         if polish:
             x = refine(problem, x).best
     return problem, x, excess

@@ -7,6 +7,8 @@ combination of unknown numbers, which closed forms do not.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from boresight.calibration.campaign import Freedom
@@ -18,6 +20,10 @@ from boresight.sensing import Cell, Readings
 
 _ROWS = 60
 """Rows that the evolution looks at: more would not make frames plainer."""
+
+_NOISE_M = 1e-3
+"""Standard deviation [m] that every reading has here: nominal geometry is off by about that much, the best
+reading no less than the worst."""
 
 _RUNS = 6
 """Independent runs; the search ends early when two agree."""
@@ -38,18 +44,18 @@ def find_frames(cell: Cell, readings: Readings, unknown: frozenset[str], seed: i
     names = tuple(name for name in cell.index if name in unknown)
     if not names:
         return cell
+    readings = replace(readings, std=np.full(readings.values.shape, _NOISE_M))
     few = readings.chosen(np.unique(np.linspace(0, len(readings) - 1, min(_ROWS, len(readings))).astype(int)))
     widths = {"angle": np.pi, "length": _span(cell, readings)}
     quantity = {parameter.name: parameter.quantity for parameter in cell.parameters}
     freedoms = tuple(Freedom(name, widths[quantity[name]], None) for name in names)
-    noise = np.full(few.values.shape, 1e-3)
     best = None
     for run in range(_RUNS):
-        wide = Problem(cell, few, freedoms, noise)
+        wide = Problem(cell, few, freedoms)
         rough = evolve(
             wide.cost, wide.box, DifferentialEvolution(population=20 * len(names)), Stops(400), seed=seed, run=run
         )
-        candidate = _settle(wide.fitted(rough.best), few, names, noise)
+        candidate = _settle(wide.fitted(rough.best), few, names)
         if best is not None and abs(candidate[1] - best[1]) <= 1e-3 * best[1] + 1e-9:
             best = min(best, candidate, key=lambda found: found[1])
             break
@@ -61,13 +67,13 @@ def find_frames(cell: Cell, readings: Readings, unknown: frozenset[str], seed: i
             f"no placement of {listed(names)} explains the readings: with the best one found, most beams look away "
             "from their planes; check the joint columns, their units and the planes"
         )
-    return _settle(found, readings, names, np.full(readings.values.shape, 1e-3))[0]
+    return _settle(found, readings, names)[0]
 
 
-def _settle(cell: Cell, readings: Readings, names: tuple[str, ...], noise: np.ndarray) -> tuple[Cell, float]:
+def _settle(cell: Cell, readings: Readings, names: tuple[str, ...]) -> tuple[Cell, float]:
     """Returns the frames after least squares from where they are, and the cost."""
     for _ in range(2):
-        problem = Problem(cell, readings, tuple(Freedom(name, None, None) for name in names), noise)
+        problem = Problem(cell, readings, tuple(Freedom(name, None, None) for name in names))
         found = least_squares(
             problem.residual,
             problem.jacobian,

@@ -29,13 +29,18 @@ class Problem:
         cell: the nominal cell.
         readings: measured values.
         freedoms: the free parameters, each once.
-        std: (rows, channels) standard deviation of each residual: the sensor's noise, and the model's own.
+        model_std: standard deviation [m] of what the model itself leaves unexplained.
     """
 
     cell: Cell
     readings: Readings
     freedoms: tuple[Freedom, ...]
-    std: Float[np.ndarray, "rows channels"]
+    model_std: float = 0.0
+
+    @cached_property
+    def std(self) -> Float[np.ndarray, "rows channels"]:
+        """Standard deviation of each residual [m]: the sensor's noise and the model's own, in squares."""
+        return np.hypot(self.readings.std, self.model_std)
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -110,19 +115,14 @@ class Problem:
         return self.cell.corrected(dict(zip(self.names, (float(value) for value in x), strict=True)))
 
     def with_model_std(self, model_std: float) -> Problem:
-        """Returns the same problem with the model's own standard deviation [m] added in squares."""
-        return replace(self, std=np.sqrt(self.readings.std**2 + model_std**2))
+        """Returns the same problem with another standard deviation [m] of the model's own."""
+        return replace(self, model_std=model_std)
 
     def on(self, rows: Float[np.ndarray, "some"]) -> Problem:
         """Returns the same problem on some of the rows."""
-        return replace(self, readings=self.readings.chosen(rows), std=self.std[rows])
+        return replace(self, readings=self.readings.chosen(rows))
 
     @cached_property
     def _evolved_half_width(self) -> Float[np.ndarray, "parameters"]:
         usual = [UNBOUNDED_HALF_WIDTH[self.cell.parameters[column].quantity] for column in self.columns]
         return np.where(np.isfinite(self.half_width), self.half_width, usual)
-
-
-def problem_of(cell: Cell, readings: Readings, freedoms: tuple[Freedom, ...]) -> Problem:
-    """Returns the problem whose residuals are as uncertain as the readings say."""
-    return Problem(cell, readings, freedoms, readings.std)

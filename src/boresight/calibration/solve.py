@@ -110,7 +110,7 @@ def solve(problem: Problem, solver: Solver, on_progress: Progress | None = None)
     return Solution(best.best, best.cost, stages, evolved.history, nominal, suffices)
 
 
-def refine(problem: Problem, start: Float[np.ndarray, "parameters"]) -> LeastSquares:
+def refine(problem: Problem, start: Float[np.ndarray, "parameters"], evaluations: int = 200) -> LeastSquares:
     """Returns the least-squares optimum reached from a start, inside the problem's bounds."""
     if not len(start):
         return LeastSquares.at(start, float(np.sum(problem.residual(start) ** 2)))
@@ -121,6 +121,7 @@ def refine(problem: Problem, start: Float[np.ndarray, "parameters"]) -> LeastSqu
         scale=problem.scale,
         lower=-problem.half_width,
         upper=problem.half_width,
+        evaluations=evaluations,
     )
 
 

@@ -9,8 +9,11 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
-FLAT = 0.1
-"""Below this |n_y|, n_y is kept and the largest of n_x and n_z follows from |n| = 1 instead."""
+FLAT = 0.2
+"""Below this |n_y|, n_y is kept and the largest of n_x and n_z follows from |n| = 1 instead; the paper's plane
+has 0.212. A small component cannot follow: errors of the others would be magnified by its inverse."""
+
+_STEEPEST = 1e-3
 
 
 @dataclass(frozen=True)
@@ -66,9 +69,10 @@ class Plane:
     def derivative(self) -> Float[np.ndarray, "4 3"]:
         """d(n_x, n_y, n_z, f) by d(first free component, second, offset), at this plane."""
         derivative = np.zeros((4, 3))
+        dropped = math.copysign(max(abs(self.normal[self.dropped]), _STEEPEST), self.normal[self.dropped])
         for column, axis in enumerate(self.free_components):
             derivative[axis, column] = 1.0
-            derivative[self.dropped, column] = -self.normal[axis] / self.normal[self.dropped]
+            derivative[self.dropped, column] = -self.normal[axis] / dropped
         derivative[3, 2] = 1.0
         return derivative
 

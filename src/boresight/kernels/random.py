@@ -5,7 +5,8 @@ the same answer on one worker or many, and a search can be replayed from any gen
 
 The mixing function is the finaliser of SplitMix64 (Steele, Lea & Flood, "Fast splittable pseudorandom
 number generators", OOPSLA 2014); the draws of one key are exactly that generator's sequence from it.
-It was preferred to Philox 4x32-10, which needs ten rounds for the same 64 bits.
+It was preferred to Philox 4x32-10, which needs ten rounds for the same 64 bits. Keys are `np.uint64`: a plain
+int would be compiled as a signed number and give others.
 """
 
 from __future__ import annotations

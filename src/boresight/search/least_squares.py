@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
@@ -50,7 +51,9 @@ def least_squares(
 ) -> LeastSquares:
     """Returns the nearest minimum of the sum of squared residuals inside a box.
 
-    Trust-region reflective (Branch, Coleman & Li 1999) as SciPy has it.
+    Levenberg-Marquardt (MINPACK; Moré 1978), and where that leaves the box, trust-region reflective (Branch,
+    Coleman & Li 1999) inside it, both as SciPy has them. The second alone took an SVD of the whole Jacobian a
+    step: 14 s instead of 2 for 400 positions and 27 parameters on two busy cores.
 
     Args:
         residual: (parameters,) to (residuals,).
@@ -65,21 +68,28 @@ def least_squares(
 
     started = time.perf_counter()
     inside = np.clip(start, lower + 1e-9 * scale, upper - 1e-9 * scale)
-    found = optimize.least_squares(
-        lambda z: residual(z * scale),
-        inside / scale,
-        jac=lambda z: jacobian(z * scale) * scale,
-        bounds=(lower / scale, upper / scale),
-        method="trf",
-        xtol=1e-12,
-        ftol=1e-14,
-        gtol=1e-12,
-        max_nfev=evaluations,
-    )
+
+    def search(**method: Any) -> Any:
+        return optimize.least_squares(
+            lambda z: residual(z * scale),
+            inside / scale,
+            jac=lambda z: jacobian(z * scale) * scale,
+            xtol=1e-12,
+            ftol=1e-14,
+            gtol=1e-12,
+            max_nfev=evaluations,
+            **method,
+        )
+
+    found = search(method="lm")
+    used = int(found.nfev)
+    if np.any(found.x * scale < lower) or np.any(found.x * scale > upper):
+        found = search(method="trf", bounds=(lower / scale, upper / scale))
+        used += int(found.nfev)
     return LeastSquares(
         best=found.x * scale,
         cost=2.0 * float(found.cost),
         outcome=Outcome.CONVERGED if found.status > 0 else Outcome.EVALUATIONS,
-        evaluations=int(found.nfev),
+        evaluations=used,
         seconds=time.perf_counter() - started,
     )
