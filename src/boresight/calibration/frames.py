@@ -12,10 +12,11 @@ from dataclasses import replace
 import numpy as np
 
 from boresight.calibration.campaign import Freedom
-from boresight.calibration.problem import Problem
+from boresight.calibration.problem import MISSED_M, Problem
+from boresight.calibration.robust import fit
 from boresight.errors import InputError
 from boresight.inference import listed
-from boresight.search import DifferentialEvolution, Stops, evolve, least_squares
+from boresight.search import DifferentialEvolution, Stops, evolve
 from boresight.sensing import Cell, Readings
 
 _ROWS = 60
@@ -53,7 +54,12 @@ def find_frames(cell: Cell, readings: Readings, unknown: frozenset[str], seed: i
     for run in range(_RUNS):
         wide = Problem(cell, few, freedoms)
         rough = evolve(
-            wide.cost, wide.box, DifferentialEvolution(population=20 * len(names)), Stops(400), seed=seed, run=run
+            wide.robust_cost,
+            wide.box,
+            DifferentialEvolution(population=20 * len(names)),
+            Stops(400),
+            seed=seed,
+            run=run,
         )
         candidate = _settle(wide.fitted(rough.best), few, names)
         if best is not None and abs(candidate[1] - best[1]) <= 1e-3 * best[1] + 1e-9:
@@ -71,19 +77,12 @@ def find_frames(cell: Cell, readings: Readings, unknown: frozenset[str], seed: i
 
 
 def _settle(cell: Cell, readings: Readings, names: tuple[str, ...]) -> tuple[Cell, float]:
-    """Returns the frames after least squares from where they are, and the cost."""
+    """Returns the frames after robust least squares from where they are, and the sum of absolute errors [m]."""
     for _ in range(2):
         problem = Problem(cell, readings, tuple(Freedom(name, None, None) for name in names))
-        found = least_squares(
-            problem.residual,
-            problem.jacobian,
-            np.zeros(len(names)),
-            scale=np.ones(len(names)),
-            lower=np.full(len(names), -np.inf),
-            upper=np.full(len(names), np.inf),
-        )
-        cell = problem.fitted(found.best)
-    return cell, found.cost
+        found = fit(problem, np.zeros(len(names)))
+        cell = problem.fitted(found.x)
+    return cell, float(np.sum(np.abs(np.nan_to_num(found.problem.errors(found.x), nan=MISSED_M))))
 
 
 def _span(cell: Cell, readings: Readings) -> float:

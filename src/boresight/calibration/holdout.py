@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from boresight.calibration.problem import Problem
+from boresight.calibration.problem import rms
 from boresight.calibration.result import ErrorSummary, Residuals
-from boresight.calibration.solve import refine, rms
+from boresight.calibration.robust import Fit, refine
 from boresight.sensing import Cell, Readings
 
 FOLDS = 5
@@ -40,16 +40,17 @@ def on_validation_rows(nominal: Cell, identified: Cell, rows: Readings) -> HeldO
     return HeldOut("validation rows", error_sizes(nominal, rows), error_sizes(identified, rows))
 
 
-def by_cross_validation(problem: Problem, x: Float[np.ndarray, "parameters"], seed: int) -> HeldOut:
-    """Returns each row's error under a fit to the other folds' rows.
+def by_cross_validation(fit: Fit, seed: int) -> HeldOut:
+    """Returns each used row's error under a fit to the other folds' rows.
 
     Every fold's fit starts at the final one, which decides the optimum's neighbourhood but not the optimum.
+    Rows that the final fit left out as gross errors are not held out either: they say nothing about the arm.
 
     Args:
-        problem: the final problem.
-        x: its solution.
+        fit: the final fit.
         seed: of the assignment of rows to folds.
     """
+    problem = fit.problem.on(np.flatnonzero(fit.kept))
     count = len(problem.readings)
     order = np.random.Generator(np.random.Philox(seed)).permutation(count)
     fold = np.empty(count, dtype=int)
@@ -58,7 +59,7 @@ def by_cross_validation(problem: Problem, x: Float[np.ndarray, "parameters"], se
     for number in range(min(FOLDS, count)):
         trained = problem.on(np.flatnonzero(fold != number))
         held = np.flatnonzero(fold == number)
-        fitted = trained.fitted(refine(trained, x).best)
+        fitted = trained.fitted(refine(trained, fit.x).best)
         after[held] = error_sizes(fitted, problem.readings.chosen(held))
     return HeldOut(f"{FOLDS}-fold cross-validation", error_sizes(problem.cell, problem.readings), after)
 

@@ -9,12 +9,16 @@ import numpy as np
 from jaxtyping import Float
 
 from boresight.calibration.campaign import Freedom
+from boresight.inference import posterior_covariance
 from boresight.search import Box
 from boresight.sensing import Cell, Readings
 from boresight.sensing.compiled import CompiledCost, compile_program, compile_rows
 
 MISSED_M = 10.0
 """Residual [m] of a beam that looks away from its plane, and of zero slope: worse than any hit, finite."""
+
+ROBUST_WITHIN = 3.0
+"""Standard deviations within which evolution's robust cost is quadratic; beyond, a residual counts by its size."""
 
 UNBOUNDED_HALF_WIDTH = {"length": 0.05, "angle": 0.05, "number": 0.05}
 """Half-width of evolution's box for parameters that nobody bounded: frames that were just found from the data,
@@ -30,17 +34,25 @@ class Problem:
         readings: measured values.
         freedoms: the free parameters, each once.
         model_std: standard deviation [m] of what the model itself leaves unexplained.
+        row_weights: weight of each row's squared residuals in least squares, 0 where it is left out; None
+            weighs all alike.
     """
 
     cell: Cell
     readings: Readings
     freedoms: tuple[Freedom, ...]
     model_std: float = 0.0
+    row_weights: Float[np.ndarray, " rows"] | None = None
 
     @cached_property
     def std(self) -> Float[np.ndarray, "rows channels"]:
         """Standard deviation of each residual [m]: the sensor's noise and the model's own, in squares."""
         return np.hypot(self.readings.std, self.model_std)
+
+    @cached_property
+    def row_weight(self) -> Float[np.ndarray, " rows"]:
+        """Weight of each row's squared residuals in least squares."""
+        return np.ones(len(self.readings)) if self.row_weights is None else self.row_weights
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -74,10 +86,13 @@ class Problem:
 
     @cached_property
     def cost(self) -> CompiledCost:
-        """The compiled cost [m²]: squared residuals, those of other than the usual noise weighted, and priors."""
-        weight = self.usual_std**2 / self.std**2
-        program = compile_program(self.cell, self.names, self.usual_std**2 / self.prior_std**2)
-        return CompiledCost(program, compile_rows(self.cell, self.readings, weight))
+        """The compiled cost [m²] of all rows: squared residuals, scaled to the usual noise, and priors."""
+        return self._compiled(0.0)
+
+    @cached_property
+    def robust_cost(self) -> CompiledCost:
+        """The same with residuals beyond `ROBUST_WITHIN` standard deviations counted by size, not by square."""
+        return self._compiled((ROBUST_WITHIN * self.usual_std) ** 2)
 
     @property
     def usual_std(self) -> float:
@@ -98,31 +113,57 @@ class Problem:
     def residual(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "residuals"]:
         """Returns errors over their standard deviations, then corrections over theirs (MAP)."""
         errors = np.nan_to_num(self.errors(x), nan=MISSED_M)
-        return np.concatenate([(errors / self.std).ravel(), x / self.prior_std])
+        return np.concatenate([(errors * self._root_weight).ravel(), x / self.prior_std])
 
     def jacobian(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "residuals parameters"]:
         """Returns the exact derivative of `residual`."""
         return np.vstack([self.sensitivity(x), np.diag(1.0 / self.prior_std)])
 
     def sensitivity(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "values parameters"]:
-        """Returns the derivative of the readings over their standard deviations, priors left out."""
-        _, full = self.cell.linearise(self.readings.joints, self.readings.target, self.corrections(x))
-        scaled = np.nan_to_num(full[:, :, self.columns], nan=0.0) / self.std[:, :, None]
-        return scaled.reshape(-1, len(self.columns))
+        """Returns the derivative of the weighed readings over their standard deviations, priors left out."""
+        return (self._slopes(x) * self._root_weight[:, :, None]).reshape(-1, len(self.columns))
+
+    def leverage(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels"]:
+        """Returns the variance of each predicted value after the fit over the variance of its error."""
+        slopes = self._slopes(x) / self.std[:, :, None]
+        return np.einsum("rci,ij,rcj->rc", slopes, self.covariance(x), slopes, optimize=True)
+
+    def covariance(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "parameters parameters"]:
+        """Returns the posterior covariance of the free corrections."""
+        return posterior_covariance(self.sensitivity(x), self.prior_std)
 
     def fitted(self, x: Float[np.ndarray, "parameters"]) -> Cell:
         """Returns the cell with the corrections applied."""
         return self.cell.corrected(dict(zip(self.names, (float(value) for value in x), strict=True)))
 
-    def with_model_std(self, model_std: float) -> Problem:
-        """Returns the same problem with another standard deviation [m] of the model's own."""
-        return replace(self, model_std=model_std)
+    def weighed(self, row_weight: Float[np.ndarray, " rows"], model_std: float) -> Problem:
+        """Returns the same problem with other rows' weights and another standard deviation [m] of the model's own."""
+        return replace(self, row_weights=row_weight, model_std=model_std)
 
     def on(self, rows: Float[np.ndarray, "some"]) -> Problem:
         """Returns the same problem on some of the rows."""
-        return replace(self, readings=self.readings.chosen(rows))
+        return replace(self, readings=self.readings.chosen(rows), row_weights=self.row_weight[rows])
+
+    def _compiled(self, loss: float) -> CompiledCost:
+        weight = self.usual_std**2 / self.std**2
+        program = compile_program(self.cell, self.names, self.usual_std**2 / self.prior_std**2, loss)
+        return CompiledCost(program, compile_rows(self.cell, self.readings, weight))
+
+    def _slopes(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels parameters"]:
+        _, full = self.cell.linearise(self.readings.joints, self.readings.target, self.corrections(x))
+        return np.nan_to_num(full[:, :, self.columns], nan=0.0)
+
+    @cached_property
+    def _root_weight(self) -> Float[np.ndarray, "rows channels"]:
+        return np.sqrt(self.row_weight)[:, None] / self.std
 
     @cached_property
     def _evolved_half_width(self) -> Float[np.ndarray, "parameters"]:
         usual = [UNBOUNDED_HALF_WIDTH[self.cell.parameters[column].quantity] for column in self.columns]
         return np.where(np.isfinite(self.half_width), self.half_width, usual)
+
+
+def rms(errors: Float[np.ndarray, "*values"]) -> float:
+    """Returns the root of the mean square of the finite errors; NaN if there are none."""
+    finite = errors[np.isfinite(errors)]
+    return float(np.sqrt(np.mean(finite**2))) if finite.size else float("nan")

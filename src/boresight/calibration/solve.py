@@ -9,14 +9,19 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
-from boresight.calibration.problem import Problem
-from boresight.search import DifferentialEvolution, LeastSquares, Stops, evolve, least_squares
+from boresight.calibration.problem import Problem, rms
+from boresight.calibration.robust import Fit, fit, trimmed_cost
+from boresight.search import DifferentialEvolution, Evolved, Stops, evolve
 
 SolverName = Literal["evolution+least-squares", "evolution", "least-squares"]
 SOLVERS: tuple[SolverName, ...] = ("evolution+least-squares", "evolution", "least-squares")
 
-SAME_OPTIMUM = 1e-6
-"""Two searches ended at the same optimum where their costs differ by less than this share."""
+SAME_OPTIMUM = 0.05
+"""Two searches ended at the same optimum where no parameter differs by more than this share of its standard
+deviation."""
+
+LOWER = 1e-4
+"""One optimum is lower than another where its cost is lower by more than this share."""
 
 Progress = Callable[[int, float], None]
 
@@ -44,8 +49,9 @@ class Stage:
 
     Attributes:
         name: what ran.
-        cost: sum of squared residuals over their standard deviations, priors included, at its end.
-        rms_m: root of the mean squared error of a value [m] at its end.
+        cost: squared residuals over the final variances, gross errors counted as the largest allowed, and priors:
+            comparable between stages, and about the number of readings where all is well.
+        rms_m: root of the mean squared error of the values used in the end [m], at this stage's end.
         seconds: wall time.
         evaluations: how often the readings were predicted.
         outcome: why it ended, in words.
@@ -64,16 +70,14 @@ class Solution:
     """Where the search ended.
 
     Attributes:
-        x: (parameters,) corrections.
-        cost: sum of squared residuals over their standard deviations, priors included.
+        fit: the best fit, its weights and what it leaves unexplained.
         stages: what ran, in order.
         history: (generations + 1, 2) best and mean cost [m²] of the evolution, empty without one.
         nominal: the stage that least squares from the nominal model alone would have been; None if not tried.
         nominal_suffices: whether it reached the same optimum.
     """
 
-    x: Float[np.ndarray, "parameters"]
-    cost: float
+    fit: Fit
     stages: tuple[Stage, ...]
     history: Float[np.ndarray, "generations 2"]
     nominal: Stage | None
@@ -81,57 +85,65 @@ class Solution:
 
 
 def solve(problem: Problem, solver: Solver, on_progress: Progress | None = None) -> Solution:
-    """Returns the best corrections that the solver finds; of two optima, the lower."""
-    start = np.zeros(len(problem.names))
+    """Returns the best fit that the solver finds; of two optima, the lower.
+
+    Least squares from the nominal model always runs first: it takes milliseconds and shows whether evolution was
+    needed.
+    """
+    direct = fit(problem, np.zeros(len(problem.names)))
     if solver.name == "least-squares":
-        found = refine(problem, start)
-        stage = _stage(problem, "least squares from the nominal model", found)
-        return Solution(found.best, found.cost, (stage,), np.empty((0, 2)), stage, True)
+        stage = _stage("least squares from the nominal model", direct, direct)
+        return Solution(direct, (stage,), np.empty((0, 2)), stage, True)
     evolved = evolve(
-        problem.cost, problem.box, solver.evolution, solver.stops, seed=solver.seed, on_progress=on_progress
+        problem.robust_cost, problem.box, solver.evolution, solver.stops, seed=solver.seed, on_progress=on_progress
     )
-    stage = Stage(
+    if solver.name == "evolution":
+        found = fit(problem, evolved.best, move=False)
+        return Solution(found, (_evolution(found, evolved),), evolved.history, None, None)
+    polished = fit(problem, evolved.best)
+    before, after = (_compared(found, (polished, direct)) for found in (direct, polished))
+    best = direct if before < (1.0 - LOWER) * after else polished
+    stages = [_evolution(best, evolved), _stage("least squares from evolution's best", best, polished)]
+    nominal = _stage("least squares from the nominal model", best, direct)
+    if best is direct:
+        stages.append(nominal)
+    return Solution(best, tuple(stages), evolved.history, nominal, _same(best, direct))
+
+
+def _compared(found: Fit, both: tuple[Fit, Fit]) -> float:
+    """Returns the trimmed cost of a fit, under the smaller of two standard deviations for both alike."""
+    judge = min(both, key=lambda each: each.problem.model_std).problem
+    return trimmed_cost(judge, found.x)
+
+
+def _same(best: Fit, other: Fit) -> bool:
+    """Returns whether two fits are one optimum, to a small part of the parameters' standard deviations."""
+    std = np.sqrt(np.diag(best.problem.covariance(best.x)))
+    return bool(np.all(np.abs(best.x - other.x) <= SAME_OPTIMUM * std))
+
+
+def _stage(name: str, best: Fit, found: Fit) -> Stage:
+    search = found.search
+    return Stage(
+        name,
+        trimmed_cost(best.problem, found.x),
+        _used_rms(best, found.x),
+        search.seconds,
+        search.evaluations,
+        search.outcome.value,
+    )
+
+
+def _evolution(best: Fit, evolved: Evolved) -> Stage:
+    return Stage(
         "evolution",
-        evolved.cost / problem.usual_std**2,
-        rms(problem.errors(evolved.best)),
+        trimmed_cost(best.problem, evolved.best),
+        _used_rms(best, evolved.best),
         evolved.seconds,
         evolved.evaluations,
         evolved.outcome.value,
     )
-    if solver.name == "evolution":
-        return Solution(evolved.best, stage.cost, (stage,), evolved.history, None, None)
-    polished, direct = refine(problem, evolved.best), refine(problem, start)
-    nominal = _stage(problem, "least squares from the nominal model", direct)
-    stages: tuple[Stage, ...] = (stage, _stage(problem, "least squares from evolution's best", polished))
-    best = polished
-    if direct.cost < polished.cost * (1.0 - SAME_OPTIMUM):
-        best, stages = direct, (*stages, nominal)
-    suffices = direct.cost <= best.cost * (1.0 + SAME_OPTIMUM)
-    return Solution(best.best, best.cost, stages, evolved.history, nominal, suffices)
 
 
-def refine(problem: Problem, start: Float[np.ndarray, "parameters"], evaluations: int = 200) -> LeastSquares:
-    """Returns the least-squares optimum reached from a start, inside the problem's bounds."""
-    if not len(start):
-        return LeastSquares.at(start, float(np.sum(problem.residual(start) ** 2)))
-    return least_squares(
-        problem.residual,
-        problem.jacobian,
-        start,
-        scale=problem.scale,
-        lower=-problem.half_width,
-        upper=problem.half_width,
-        evaluations=evaluations,
-    )
-
-
-def rms(errors: Float[np.ndarray, "*values"]) -> float:
-    """Returns the root of the mean square of the finite errors; NaN if there are none."""
-    finite = errors[np.isfinite(errors)]
-    return float(np.sqrt(np.mean(finite**2))) if finite.size else float("nan")
-
-
-def _stage(problem: Problem, name: str, found: LeastSquares) -> Stage:
-    return Stage(
-        name, found.cost, rms(problem.errors(found.best)), found.seconds, found.evaluations, found.outcome.value
-    )
+def _used_rms(best: Fit, x: Float[np.ndarray, "parameters"]) -> float:
+    return rms(best.problem.errors(x)[best.kept])

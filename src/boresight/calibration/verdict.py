@@ -10,6 +10,7 @@ from jaxtyping import Float
 from boresight.calibration.holdout import HeldOut
 from boresight.calibration.problem import Problem
 from boresight.calibration.result import Verdict
+from boresight.calibration.robust import Fit
 from boresight.inference import listed
 from boresight.units import in_millimetres
 
@@ -53,18 +54,15 @@ def improvement(held_out: HeldOut, seed: int) -> Improvement:
     return Improvement(_ratio(before, after), float(low), float(high))
 
 
-def judge(
-    held_out: HeldOut, problem: Problem, x: Float[np.ndarray, "parameters"], model_std: float, seed: int
-) -> Verdict:
+def judge(held_out: HeldOut, fit: Fit, seed: int) -> Verdict:
     """Returns the verdict and its reasons.
 
     Args:
         held_out: errors on rows that were not fitted.
-        problem: what was fitted.
-        x: the corrections found.
-        model_std: what the model leaves unexplained [m].
+        fit: the final fit.
         seed: of the bootstrap.
     """
+    problem, model_std = fit.problem, fit.problem.model_std
     change, size = improvement(held_out, seed), held_out.residuals
     fell = f"from {in_millimetres(size.before.rms)} to {in_millimetres(size.after.rms)} RMS on {held_out.method}"
     interval = f"what is left is {change.low:.1%} to {change.high:.1%} of it, with 95 % confidence"
@@ -78,7 +76,7 @@ def judge(
             f"Held-out error did not fall for certain, {fell}: {interval}. "
             "Take more readings, spread over the joints' ranges, or free fewer parameters."
         ]
-    stuck = [name for name, at in zip(problem.names, _at_bound(problem, x), strict=True) if at]
+    stuck = [name for name, at in zip(problem.names, _at_bound(problem, fit.x), strict=True) if at]
     if stuck:
         verb = "sits at its bound" if len(stuck) == 1 else "sit at their bounds"
         reasons.append(f"{listed(stuck)} {verb}: widen `within` for them, or look for a wrong nominal value or unit.")

@@ -52,6 +52,8 @@ class Program(NamedTuple):
         plane_parameter: (planes, 4) rows of the corrections of n_x, n_y, n_z and the offset, or `FIXED`.
         plane_dropped: (planes,) the component of the normal that follows from the other two.
         prior_weight: (parameters,) weight of each squared correction in the cost.
+        loss: squared residual [m²] beyond which the cost grows with the residual rather than with its square
+            (pseudo-Huber), or 0 for plain squares.
     """
 
     segment_start: np.ndarray
@@ -64,6 +66,7 @@ class Program(NamedTuple):
     plane_parameter: np.ndarray
     plane_dropped: np.ndarray
     prior_weight: np.ndarray
+    loss: float
 
 
 class Rows(NamedTuple):

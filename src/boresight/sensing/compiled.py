@@ -19,13 +19,16 @@ from boresight.sensing.cell import Cell
 from boresight.sensing.readings import Readings
 
 
-def compile_program(cell: Cell, free: Sequence[str], prior_weight: Float[np.ndarray, "free"]) -> Program:
+def compile_program(
+    cell: Cell, free: Sequence[str], prior_weight: Float[np.ndarray, "free"], loss: float = 0.0
+) -> Program:
     """Returns how corrections of the free parameters, in that order, become links and planes.
 
     Args:
         cell: the nominal cell.
         free: names of the parameters that move.
         prior_weight: weight in the cost of each squared correction.
+        loss: squared residual [m²] beyond which the cost grows with the residual, not its square; 0 for never.
     """
     place = {name: row for row, name in enumerate(free)}
     segments, prismatic = _segments(cell.chain)
@@ -43,6 +46,7 @@ def compile_program(cell: Cell, free: Sequence[str], prior_weight: Float[np.ndar
         plane_parameter=np.array([_plane_rows(name, plane, place) for name, plane in planes], dtype=np.int64),
         plane_dropped=np.array([plane.dropped for _, plane in planes], dtype=np.int64),
         prior_weight=np.ascontiguousarray(prior_weight, dtype=float),
+        loss=float(loss),
     )
 
 
