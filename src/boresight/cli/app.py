@@ -10,12 +10,16 @@ import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
-from cyclopts import App, Parameter
+from cyclopts import App, CycloptsError, Parameter
 
 from boresight import __version__
+from boresight.cli.consoles import PipedConsole
 from boresight.errors import BoresightError
 
 REJECTED, INTERRUPTED = 2, 130
+
+LARGEST_SEED = 2**63 - 1
+"""Seeds are counted in 64 bits, and in JSON's readers with a sign."""
 
 SolverChoice = Literal["evolution+least-squares", "evolution", "least-squares"]
 StrategyChoice = Literal["trade-off", "rand-to-best/1", "current-to-best/1", "best/1", "rand/1"]
@@ -25,6 +29,7 @@ app = App(
     version=__version__,
     help="Calibrate a robot arm with a laser ranger and a flat plate, and be told how far to trust the result.",
     help_epilogue="Exit codes: 0 accepted, 1 an error in input or usage, 2 rejected, 130 interrupted.",
+    suppress_keyboard_interrupt=False,  # it would end without a word
 )
 
 
@@ -96,16 +101,16 @@ def simulate(
 def main() -> None:
     """Runs the command line and exits with its code."""
     try:
-        code = app(result_action="return_value")
+        # cyclopts itself would exit with 2, which here means a rejected result.
+        code = app(sys.argv[1:], result_action="return_value", exit_on_error=False, console=PipedConsole())
+    except CycloptsError:
+        code = 1
     except BoresightError as error:
         _say(error)
         code = 1
     except KeyboardInterrupt:
         print("Interrupted; nothing was written.", file=sys.stderr)
         code = INTERRUPTED
-    except BrokenPipeError:
-        sys.stderr.close()
-        code = 0
     sys.exit(code if isinstance(code, int) else 0)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 from rich.console import Console
@@ -10,7 +9,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from boresight import __version__
 from boresight.calibration import Solver, calibrate
-from boresight.cli.app import REJECTED
+from boresight.cli.app import LARGEST_SEED, REJECTED
+from boresight.cli.consoles import PipedConsole, print_plain
 from boresight.errors import InputError
 from boresight.files import load_campaign
 from boresight.kernels.compiling import first_compile_ahead
@@ -19,6 +19,9 @@ from boresight.report.document import result_json
 from boresight.report.folder import check_writable, write_result
 from boresight.report.summary import print_summary
 from boresight.search import STRATEGIES, DifferentialEvolution, Stops
+
+MOST_MEMBERS, MOST_GENERATIONS = 1_000_000, 1_000_000_000
+"""Beyond these memory or patience would end first."""
 
 
 def run_calibrate(
@@ -59,20 +62,20 @@ def run_calibrate(
         result = calibrate(campaign, settings, show)
     written = write_result(result, folder, __version__)
     if as_json:
-        sys.stdout.write(result_json(result, __version__))
+        print_plain(result_json(result, __version__))
     else:
-        print_summary(Console(), result, written)
+        print_summary(PipedConsole(), result, written)
     return 0 if result.verdict.accepted else REJECTED
 
 
 def _solver(solver: str, strategy: str, population: int, generations: int, seed: int) -> Solver:
     problems = []
-    if population < 5:
-        problems.append(f"--population: expected at least 5 members, got {population}; the paper uses 150")
-    if generations < 1:
-        problems.append(f"--generations: expected at least 1, got {generations}; the paper uses 500")
-    if seed < 0:
-        problems.append(f"--seed: expected a whole number from 0, got {seed}")
+    if not 5 <= population <= MOST_MEMBERS:
+        problems.append(f"--population: expected 5 to {MOST_MEMBERS} members, got {population}; the paper uses 150")
+    if not 1 <= generations <= MOST_GENERATIONS:
+        problems.append(f"--generations: expected 1 to {MOST_GENERATIONS}, got {generations}; the paper uses 500")
+    if not 0 <= seed <= LARGEST_SEED:
+        problems.append(f"--seed: expected a whole number from 0 to {LARGEST_SEED}, got {seed}")
     if problems:
         raise InputError(problems)
     evolution = DifferentialEvolution(STRATEGIES[strategy], population)

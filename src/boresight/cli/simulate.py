@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rich.console import Console
 from rich.markup import escape
 
 from boresight.calibration.simulate import simulate
+from boresight.cli.app import LARGEST_SEED
+from boresight.cli.consoles import PipedConsole
 from boresight.errors import InputError
 from boresight.files import load_campaign
 from boresight.files.rehearsals import write_rehearsal
+
+MOST_ROWS = 1_000_000
+"""As many readings as a calibration is meant for."""
 
 
 def run_simulate(
@@ -20,10 +24,10 @@ def run_simulate(
     problems = [
         f"{option}: expected {expected}, got {given}"
         for option, given, expected, wrong in (
-            ("--rows", rows, "at least 1", rows is not None and rows < 1),
-            ("--validation-rows", validation_rows, "at least 1", validation_rows < 1),
+            ("--rows", rows, f"1 to {MOST_ROWS}", rows is not None and not 1 <= rows <= MOST_ROWS),
+            ("--validation-rows", validation_rows, f"1 to {MOST_ROWS}", not 1 <= validation_rows <= MOST_ROWS),
             ("--size", size, "a factor from 0 to 100", not 0.0 <= size <= 100.0),
-            ("--seed", seed, "a whole number from 0", seed < 0),
+            ("--seed", seed, f"a whole number from 0 to {LARGEST_SEED}", not 0 <= seed <= LARGEST_SEED),
         )
         if wrong
     ]
@@ -33,7 +37,7 @@ def run_simulate(
     folder = output or Path(f"{campaign.name}-simulated")
     rehearsal = simulate(campaign, rows=rows, validation_rows=validation_rows, size=size, seed=seed)
     written = write_rehearsal(campaign, rehearsal, path, folder)
-    console = Console()
+    console = PipedConsole()
     console.print(
         f"Simulated {len(rehearsal.readings)} calibration and {len(rehearsal.validation)} validation rows of "
         f"[bold]{escape(campaign.name)}[/], seed {seed}."

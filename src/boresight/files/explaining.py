@@ -23,8 +23,8 @@ _EXPECTED = {
     "list_type": "a list: [first, second]",
     "dict_type": "a block of names with their keys",
     "greater_than": "a number above {gt:g}",
-    "greater_than_equal": "a number of at least {ge}",
-    "less_than_equal": "a number of at most {le}",
+    "greater_than_equal": "a number of at least {ge:g}",
+    "less_than_equal": "a number of at most {le:g}",
     "too_short": "a list of at least {min_length}",
     "expected": "{what}",
 }

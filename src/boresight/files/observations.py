@@ -12,6 +12,7 @@ from boresight.calibration.campaign import SetAside
 from boresight.errors import InputError
 from boresight.files.columns import Columns
 from boresight.files.problems import Problems, printable
+from boresight.files.schemas import LARGEST, SMALLEST
 from boresight.files.sources import Source, read_source
 from boresight.files.suspicions import suspicions
 from boresight.files.tables import Table, read_table
@@ -69,7 +70,7 @@ def _judged(table: Table, source: Source, cell: Cell, units: Units) -> Observati
         raise InputError(f"{source.name}: there is a header but no row of readings under it")
     _check_certainty(table, source.name)
     values = numbers[:, columns.joints : columns.joints + columns.channels]
-    usable = np.isfinite(numbers).all(axis=1) & (table.target >= 0)
+    usable = (np.abs(numbers) <= LARGEST).all(axis=1) & (table.target >= 0)
     if cell.sensor.type == "laser_ranger":
         usable &= ~(values <= 0.0).any(axis=1)
     set_aside = tuple(
@@ -102,7 +103,7 @@ def _check_certainty(table: Table, name: str) -> None:
     columns = table.columns
     start = columns.joints + columns.channels
     for column in range(start, start + columns.stds):
-        for row in np.flatnonzero(table.numbers[:, column] <= 0.0):
+        for row in np.flatnonzero(table.numbers[:, column] < SMALLEST):
             problems.add(
                 f"{name}, line {table.line[row]}: {columns.names[column]}: got {table.numbers[row, column]:g}; "
                 f"expected a standard deviation above 0; leave the cell empty to set the row aside"

@@ -54,6 +54,12 @@ def _limits(value: Any) -> Any:
     return tuple(map(float, value))
 
 
+def _not_minute(value: float) -> float:
+    if value < SMALLEST:
+        raise expected(f"a number of at least {SMALLEST:g}")
+    return value
+
+
 def _is_numbers(value: Any, count: int) -> bool:
     return isinstance(value, list) and len(value) == count and all(map(_is_number, value))
 
@@ -62,8 +68,14 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
-Number = Annotated[float, Strict(), AllowInfNan(False)]
-Positive = Annotated[Number, Field(gt=0)]
+LARGEST = 1e9
+"""Beyond this a number is a slip of the pen, and its squares would leave floating point."""
+
+SMALLEST = 1e-12
+"""The same for what is above 0."""
+
+Number = Annotated[float, Strict(), AllowInfNan(False), Field(ge=-LARGEST, le=LARGEST)]
+Positive = Annotated[Number, Field(gt=0), AfterValidator(_not_minute)]
 Name = Annotated[str, AfterValidator(_checked_name)]
 Triple = Annotated[tuple[float, float, float], BeforeValidator(_triple)]
 KnownTriple = Annotated[tuple[float, float, float] | None, BeforeValidator(_unknown_or_triple)]

@@ -15,6 +15,7 @@ from jaxtyping import Float, Int
 from boresight.errors import InputError, did_you_mean
 from boresight.files.columns import Columns, read_columns
 from boresight.files.problems import Problems, listed, printable, shown
+from boresight.files.schemas import LARGEST
 from boresight.files.sources import Source
 from boresight.sensing import Cell
 from boresight.units import Units
@@ -45,7 +46,7 @@ class Table:
         reasons = [
             f"{name} is empty" if name in empty else f"{name} is {number:g}"
             for name, number in zip(columns.names, numbers, strict=True)
-            if not np.isfinite(number)
+            if not abs(number) <= LARGEST
         ]
         reasons += ["target is empty"] if self.target[row] < 0 else []
         if not reasons:

@@ -51,7 +51,12 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
             name: {"normal": list(plane.normal), "offset": plane.offset} for name, plane in result.cell.targets.items()
         },
         "outliers": [
-            {"line": outlier.line, "residual": outlier.residual_m, "unit": "m", "ratio": _number(outlier.ratio)}
+            {
+                "line": outlier.line,
+                "residual": _number(outlier.residual_m),
+                "unit": "m",
+                "ratio": _number(outlier.ratio),
+            }
             for outlier in result.outliers
         ],
         "set_aside": [{"file": row.file, "line": row.line, "reason": row.reason} for row in result.set_aside],

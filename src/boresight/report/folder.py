@@ -36,7 +36,8 @@ def write_result(result: Result, folder: Path, version: str) -> Path:
     """
     chosen = folder
     if not result.verdict.accepted and _holds_accepted(folder):
-        chosen = folder.with_name(f"{folder.name}-rejected")
+        beside = folder.resolve() if folder.name in ("", "..") else folder  # `-o .` has no name of its own
+        chosen = beside.with_name(f"{beside.name}-rejected")
     check_writable(chosen)
     contents = {
         "robot-calibrated.yaml": dump_robot(result.cell.arm, _robot_comment(result)),

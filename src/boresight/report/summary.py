@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from rich.console import Console, Group, RenderableType
@@ -10,10 +11,11 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from boresight.calibration.result import Residuals, Result
+from boresight.calibration.result import Outlier, Residuals, Result
 from boresight.units import in_millimetres
 
 _FEW = 5
+_DIRECTIONS = 3
 
 
 def print_summary(console: Console, result: Result, folder: Path) -> None:
@@ -55,19 +57,25 @@ def _facts(result: Result) -> list[RenderableType]:
     if prior:
         facts.append(f"Mostly prior: {_some(prior)} moved little because the data say little about them.")
     if result.outliers:
-        lines = [f"line {outlier.line} ({in_millimetres(outlier.residual_m)})" for outlier in result.outliers]
-        facts.append(f"Outliers: {_some(lines)} do not fit with the other rows.")
+        facts.append(f"Outliers: {_some([_outlier(each) for each in result.outliers])} do not fit with the other rows.")
     if result.set_aside:
         rows = [f"{row.file} line {row.line} ({row.reason})" for row in result.set_aside]
         facts.append(f"Set aside: {_some(rows)}.")
     return [Text(fact) for fact in facts]
 
 
+def _outlier(outlier: Outlier) -> str:
+    size = in_millimetres(outlier.residual_m) if math.isfinite(outlier.residual_m) else "its beam misses"
+    return f"line {outlier.line} ({size})"
+
+
 def _seen(result: Result) -> str:
     if not result.unseen:
         return f"Seen: all {result.free} free parameters."
-    words = "; ".join(unseen.words for unseen in result.unseen)
-    return f"Not seen: {result.free - result.rank} of {result.free} directions. {words}."
+    words = "; ".join(unseen.words for unseen in result.unseen[:_DIRECTIONS])
+    more = len(result.unseen) - _DIRECTIONS
+    others = f" (and {more} more, in result.json)" if more > 0 else ""
+    return f"Not seen: {result.free - result.rank} of {result.free} directions. {words}{others}."
 
 
 def _searched(result: Result) -> str:

@@ -85,9 +85,8 @@ def simulated_readings(
     random = _random(seed, _NOISE, part)
     sensor = cell.sensor
     real = cell.predict(joints, target)
-    noise = random.normal(0.0, sensor.noise_std, (*real.shape, sensor.repeats)).mean(axis=-1)
     std = np.full(real.shape, sensor.noise_std / np.sqrt(sensor.repeats))
-    return Readings(joints, real + noise, std, np.asarray(target), np.arange(len(joints)) + 2)
+    return Readings(joints, real + random.normal(0.0, std), std, np.asarray(target), np.arange(len(joints)) + 2)
 
 
 def _sees(cell: Cell, joints: Float[np.ndarray, "rows joints"], place: int) -> np.ndarray:
