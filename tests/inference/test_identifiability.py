@@ -39,9 +39,9 @@ def test_unseen_directions_change_no_reading_and_are_short():
 
 def test_words_name_what_stands_alone_and_what_is_confused():
     said = unseen_in_words(identify_directions(NAMES, jacobian(), np.ones(5)), np.ones(5))
-    assert said[0] == (("c",), "c does not change any reading")
-    assert set(said[1][0]) == {"a", "b"}
-    assert "cannot be told apart" in said[1][1]
+    assert (said[0].parameters, said[0].words) == (("c",), "c does not change any reading")
+    assert set(said[1].parameters) == {"a", "b"}
+    assert "cannot be told apart" in said[1].words
 
 
 def test_fewer_rows_than_parameters_leave_the_rest_unseen():

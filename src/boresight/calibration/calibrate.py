@@ -9,6 +9,7 @@ from boresight.calibration.estimates import estimates_of
 from boresight.calibration.frames import find_frames
 from boresight.calibration.freedom import freedoms_of
 from boresight.calibration.holdout import by_cross_validation, error_sizes, on_validation_rows, summarise
+from boresight.calibration.left_out import left_out, left_out_in_words
 from boresight.calibration.outliers import find_outliers
 from boresight.calibration.problem import Problem
 from boresight.calibration.result import Residuals, Result, Unseen
@@ -16,7 +17,7 @@ from boresight.calibration.robust import Fit
 from boresight.calibration.solve import Progress, Solver, solve
 from boresight.calibration.verdict import judge
 from boresight.errors import InputError
-from boresight.inference import identify_directions, unseen_in_words
+from boresight.inference import identify_directions, movements_of, unseen_in_words
 from boresight.sensing import Cell, Readings
 
 MANY_LEFT_OUT = 0.1
@@ -47,6 +48,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
     identified = problem.fitted(x)
     sensitivity = problem.sensitivity(x)
     found = identify_directions(problem.names, sensitivity, problem.scale)
+    moves = movements_of(problem.cell, readings.joints, readings.target, problem.names, problem.corrections(x))
     covariance = problem.covariance(x)
     if campaign.validation is not None:
         held_out = on_validation_rows(nominal, identified, campaign.validation)
@@ -60,7 +62,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         estimates=estimates_of(problem, identified, covariance, campaign.cell, campaign.unknown),
         free=len(freedoms),
         rank=found.rank,
-        unseen=tuple(Unseen(names, words) for names, words in unseen_in_words(found, problem.scale)),
+        unseen=tuple(Unseen(each.parameters, each.words) for each in unseen_in_words(found, problem.scale, moves)),
         calibration=_fitted_errors(nominal, identified, readings.chosen(solution.fit.kept)),
         validation=held_out.residuals,
         outliers=find_outliers(solution.fit),
@@ -74,7 +76,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         free_names=problem.names,
         set_aside=campaign.set_aside,
         warnings=campaign.warnings + _warnings(solution.fit),
-        notes=campaign.notes,
+        notes=campaign.notes + left_out_in_words(left_out(campaign, nominal, freedoms)),
         inputs=campaign.inputs,
     )
 

@@ -57,10 +57,10 @@ def identify_directions(
     singular = np.zeros(scaled.shape[1])
     singular[: len(found)] = found
     rank = int(np.count_nonzero(singular > UNSEEN * max(singular[0], 1e-300)))
-    return Identifiability(names, rank, singular, _shortest(directions[rank:]))
+    return Identifiability(names, rank, singular, shortest(directions[rank:]))
 
 
-def _shortest(basis: Float[np.ndarray, "directions parameters"]) -> Float[np.ndarray, "directions parameters"]:
+def shortest(basis: Float[np.ndarray, "directions parameters"]) -> Float[np.ndarray, "directions parameters"]:
     """Returns a basis of the same space whose vectors touch few parameters: its reduced row echelon form.
 
     Pivots are chosen by size, so that a parameter that no reading sees stands alone, and each other

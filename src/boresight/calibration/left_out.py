@@ -1,0 +1,93 @@
+"""What the default freedom leaves out, and why: the other half of `freedoms_of`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from boresight.arm import Arm
+from boresight.calibration.campaign import Campaign, Freedom
+from boresight.calibration.freedom import USUAL_WITHIN, link_candidates
+from boresight.inference import listed
+from boresight.sensing import Cell, Readings
+
+_NAMED = 0.05
+"""Parameters that explain less than this share of another are not named as its explanation."""
+
+_SILENT = 1e-6
+"""A parameter whose effect is below this share of the largest changes no reading."""
+
+
+@dataclass(frozen=True, slots=True)
+class LeftOut:
+    """A link parameter that is held at its nominal value although the campaign does not say so.
+
+    Attributes:
+        parameter: its name.
+        reason: why, as words to stand in brackets.
+    """
+
+    parameter: str
+    reason: str
+
+
+def left_out(campaign: Campaign, cell: Cell, freedoms: tuple[Freedom, ...]) -> tuple[LeftOut, ...]:
+    """Returns what the default choice left out; nothing where the campaign chose itself.
+
+    Args:
+        campaign: with readings.
+        cell: its cell, with unknown frames where they were found.
+        freedoms: the choice.
+    """
+    if campaign.freedoms is not None:
+        return ()
+    assert campaign.readings is not None
+    free = [freedom.parameter for freedom in freedoms]
+    unseen = [name for name in link_candidates(cell.arm) if name not in campaign.fixed and name not in free]
+    replaced = [out for out in _replaced(cell.arm) if out.parameter not in campaign.fixed]
+    return (*replaced, *_explained(cell, campaign.readings, unseen, free))
+
+
+def left_out_in_words(out: tuple[LeftOut, ...]) -> tuple[str, ...]:
+    """Returns one note that says what was left out and why, parameters with one reason together; none if nothing."""
+    reasons: dict[str, list[str]] = {}
+    for each in out:
+        reasons.setdefault(each.reason, []).append(each.parameter)
+    said = [f"{listed(names)} ({reason})" for reason, names in reasons.items()]
+    return (f"Left out of the estimate: {'; '.join(said)}.",) if said else ()
+
+
+def _replaced(arm: Arm) -> list[LeftOut]:
+    """Returns every d for which beta stands in."""
+    betas = {name.split(".")[0] for name in link_candidates(arm) if name.endswith(".beta")}
+    out = []
+    for place, joint in enumerate(arm.joints):
+        if joint.name in betas and joint.type == "revolute":
+            other = arm.joints[place + 1 if arm.convention == "standard-dh" else place - 1].name
+            out.append(LeftOut(f"{joint.name}.d", f"parallel to {other}'s axis: beta stands in"))
+    return out
+
+
+def _explained(cell: Cell, readings: Readings, unseen: list[str], free: list[str]) -> list[LeftOut]:
+    """Returns why candidates show nothing that the free parameters do not."""
+    names = free + unseen
+    if not unseen:
+        return []
+    quantity = {parameter.name: parameter.quantity for parameter in cell.parameters}
+    _, full = cell.linearise(readings.joints, readings.target)
+    columns = full[:, :, [cell.index[name] for name in names]] * [USUAL_WITHIN[quantity[name]] for name in names]
+    flat = np.nan_to_num((columns / readings.std[:, :, None]).reshape(-1, len(names)), nan=0.0)
+    chosen, rest = flat[:, : len(free)], flat[:, len(free) :]
+    largest = float(np.linalg.norm(flat, axis=0).max(initial=0.0))
+    parts = np.linalg.lstsq(chosen, rest, rcond=None)[0] if free else np.empty((0, len(unseen)))
+    out = []
+    for place, name in enumerate(unseen):
+        share = np.abs(parts[:, place])
+        causes = [free[i] for i in np.argsort(-share, kind="stable") if share[i] > _NAMED * share.max()]
+        if np.linalg.norm(rest[:, place]) <= _SILENT * largest or not causes:
+            out.append(LeftOut(name, "changes no reading"))
+        else:
+            verb = "does" if len(causes) == 1 else "do"
+            out.append(LeftOut(name, f"changes no reading that {listed(causes, 4)} {verb} not explain"))
+    return out

@@ -1,0 +1,86 @@
+"""How every free parameter moves the sensor, or a target, in a set of configurations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from boresight.geometry import Plane
+from boresight.sensing import Cell
+from boresight.units import Quantity
+
+_ROWS = 300
+"""Configurations looked at: what moves alike in these moves alike in all."""
+
+
+@dataclass(frozen=True)
+class Movements:
+    """Twists of the sensor by the free parameters, and what it aims at.
+
+    Attributes:
+        names: the free parameters.
+        quantities: what each measures.
+        twists: (rows, parameters, 6) the sensor's twist (v, w) about the world's origin a unit of each
+            parameter, in the world; zero for a target's.
+        of_target: for each parameter the target it belongs to, or "".
+        poses: (rows, 4, 4) `T_world_sensor`.
+        aimed: (rows,) index of each row's target.
+        targets: the targets by name; empty where the sensor needs none.
+        base: `T_world_base`.
+        first_axis: direction of the first joint's axis in the world.
+    """
+
+    names: tuple[str, ...]
+    quantities: tuple[Quantity, ...]
+    twists: Float[np.ndarray, "rows parameters 6"]
+    of_target: tuple[str, ...]
+    poses: Float[np.ndarray, "rows 4 4"]
+    aimed: Int[np.ndarray, "rows"]
+    targets: dict[str, Plane]
+    base: Float[np.ndarray, "4 4"]
+    first_axis: Float[np.ndarray, "3"]
+
+
+def movements_of(
+    cell: Cell,
+    joints: Float[np.ndarray, "rows joints"],
+    target: Int[np.ndarray, "rows"],
+    names: tuple[str, ...],
+    corrections: Float[np.ndarray, "parameters"] | None = None,
+) -> Movements:
+    """Returns how the named parameters move what is measured.
+
+    Args:
+        cell: the cell.
+        joints: configurations [rad or m].
+        target: for each row the index of its target.
+        names: parameters of interest.
+        corrections: added to the nominal values, in the order of the cell's parameters; none by default.
+    """
+    some = np.unique(np.linspace(0, len(joints) - 1, min(_ROWS, len(joints))).astype(int))
+    moving = len(cell.chain.parameters)
+    motion = cell.chain.linearise(joints[some], None if corrections is None else corrections[:moving])
+    columns = [cell.index[name] for name in names]
+    twists = np.zeros((len(some), len(names), 6))
+    for place, column in enumerate(columns):
+        if column < moving:
+            twists[:, place] = motion.twists[:, column]
+    by_name = (
+        {} if corrections is None else {p.name: float(c) for p, c in zip(cell.parameters, corrections, strict=True)}
+    )
+    targets = cell.corrected({name: c for name, c in by_name.items() if cell.index[name] >= moving}).targets
+    first = cell.arm.joints[0]
+    axis = motion.twists[0, cell.index[f"{first.name}.d"], :3]  # d shifts along the axis, whichever way the joint moves
+    return Movements(
+        names,
+        tuple(cell.parameters[column].quantity for column in columns),
+        twists,
+        tuple("" if column < moving else name.rsplit(".", 1)[0] for name, column in zip(names, columns, strict=True)),
+        motion.poses,
+        target[some],
+        dict(targets) if cell.sensor.needs_target else {},
+        cell.base.matrix,
+        axis,
+    )

@@ -1,0 +1,129 @@
+"""Why a direction is unseen, and what would show it, in words for each kind of motion."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+
+from boresight.inference.movements import Movements
+from boresight.inference.symmetries import Kind, Symmetry
+
+_SQUARE = np.radians(0.5)
+"""An axis this close to a plane's normal is called perpendicular to the plane."""
+
+
+def opening(symmetry: Symmetry, moves: Movements | None) -> str:
+    """Returns what a motion of several parameters does, as the beginning of a sentence; "" where nothing is known."""
+    if moves is None:
+        return ""
+    owners = {moves.of_target[i] for i in np.flatnonzero(symmetry.direction) if moves.of_target[i]}
+    if symmetry.kind == "still":
+        return "in these configurations one undoes what the other does" if not owners else _unused(owners)
+    if symmetry.kind == "gliding":
+        return f"moving them together only slides the sensor along {_planes(moves)}"
+    if symmetry.kind == "base":
+        verb = symmetry.motion.split()[0] if symmetry.motion else "moving"
+        motion = symmetry.motion.replace(verb, f"{verb} the base", 1) if symmetry.motion else "moving the base"
+        if owners:
+            return f"{motion} while {verb} {_named(sorted(owners))} with it changes no reading"
+        return f"{motion} changes no reading, as {_planes(moves)} {_stay(moves)}"
+    if symmetry.kind == "sensor":
+        if symmetry.motion == "turning about z" and moves.targets:
+            return "spin about the beam is not seen"
+        motion = symmetry.motion or "moving"
+        return f"{motion.replace(' ', ' the sensor ', 1) if ' ' in motion else 'moving the sensor'} changes no reading"
+    return ""
+
+
+def group_reason(
+    kind: Kind,
+    names: tuple[str, ...],
+    symmetries: list[Symmetry],
+    scale: Float[np.ndarray, "parameters"],
+    moves: Movements | None,
+) -> str:
+    """Returns why parameters do not change any reading by themselves, to be added to a sentence that says so."""
+    if moves is None:
+        return ""
+    they = "it" if len(names) == 1 else "they"
+    owners = {moves.of_target[int(np.argmax(np.abs(s.direction)))] for s in symmetries} - {""}
+    if kind == "still" and owners:
+        return f", because {_unused(owners)}"
+    if kind == "gliding":
+        slides = f"{they} only {'moves' if they == 'it' else 'move'} the sensor along {_planes(moves)}"
+        return f", because {reason}: {slides}" if (reason := _perpendicular(moves)) else f": {slides}"
+    if kind == "base":
+        return f": {they} only {'moves' if they == 'it' else 'move'} the whole arm"
+    if kind == "sensor":
+        spun = [symmetry.motion == "turning about z" for symmetry in symmetries]
+        if moves.targets and all(spun):
+            return ": spin about the beam is not seen"
+        return f": {they} only {'turns' if they == 'it' else 'turn'} the sensor about its own origin"
+    return ""
+
+
+def mend(kind: Kind, names: tuple[str, ...], moves: Movements | None) -> str:
+    """Returns what would show a direction, or do without it.
+
+    Args:
+        kind: of motion.
+        names: the parameters of the direction, the largest part first.
+        moves: how they move sensor and targets.
+    """
+    fixable = min(names, key=lambda name: (_is_target(name, moves), names.index(name)))
+    if kind == "still":
+        return f"fix all but one of them, say `fixed: [{_least_physical(names)}]`" if len(names) > 1 else "fix it"
+    if kind == "gliding":
+        plane = _planes(moves) if moves else "the plane"
+        which = "it" if len(names) == 1 else "them"
+        return f"measure against one more plane, not parallel to {plane}, or fix {which}: ranges never need {which}"
+    if kind == "base":
+        if any(_is_target(name, moves) for name in names):
+            return (
+                f"fix {fixable}, which then defines the base, or survey the plane and fix its parameters "
+                "(a known azimuth), or give one a `prior_std`"
+            )
+        return f"measure against one more plane that is not parallel to these, or fix {fixable}"
+    if kind == "sensor":
+        return f"fix {_least_physical(names)}; if that matters for the tool, measure it by other means"
+    return "measure more or other configurations, fix one of them, or give one a tighter `prior_std`"
+
+
+def _is_target(name: str, moves: Movements | None) -> bool:
+    return moves is not None and name in moves.names and bool(moves.of_target[moves.names.index(name)])
+
+
+def _least_physical(names: tuple[str, ...]) -> str:
+    """Returns the parameter to give up first: a frame's, then a beta, then the last named."""
+    for wanted in (lambda n: n.startswith(("mount.", "base.")), lambda n: n.endswith(".beta")):
+        if chosen := [name for name in names if wanted(name)]:
+            return chosen[-1]
+    return names[-1]
+
+
+def _planes(moves: Movements) -> str:
+    return _named(list(moves.targets)) if moves.targets else "its target"
+
+
+def _named(targets: list[str]) -> str:
+    if len(targets) == 1:
+        return f"plane `{targets[0]}`"
+    return f"planes {', '.join(f'`{name}`' for name in targets[:-1])} and `{targets[-1]}`"
+
+
+def _stay(moves: Movements) -> str:
+    return "stays where it is" if len(moves.targets) == 1 else "stay where they are"
+
+
+def _unused(owners: set[str]) -> str:
+    return f"no row aims at {_named(sorted(owners))}"
+
+
+def _perpendicular(moves: Movements) -> str:
+    """Returns that the planes are perpendicular to the first axis, or "" where they are not."""
+    axis = moves.first_axis
+    for plane in moves.targets.values():
+        if np.linalg.norm(np.cross(axis, plane.normal)) > np.sin(_SQUARE):
+            return ""
+    verb = "is" if len(moves.targets) == 1 else "are"
+    return f"{_planes(moves)} {verb} perpendicular to the first axis" if moves.targets else ""

@@ -1,0 +1,196 @@
+"""Why a combination of parameters changes no reading: a null space taken apart into motions that have names.
+
+In configuration k a null direction δ moves the sensor by the twist ξ_k = Σ_p twist_p(q_k) δ_p. Where all ξ_k are
+zero, the parameters do the same to the arm, or belong to a target that no row aims at. Where each ξ_k maps the
+plane it aims at onto itself, the sensor only glides along it. Where all ξ_k are one twist, the whole arm moves as
+a rigid body, and targets with it. Where they are one twist seen from the sensor, the sensor moves on its mount.
+What is left has no name.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from jaxtyping import Float
+
+from boresight.inference.identifiability import shortest
+from boresight.inference.movements import Movements
+
+Kind = Literal["still", "gliding", "base", "sensor", "other"]
+KINDS: tuple[Kind, ...] = ("still", "gliding", "base", "sensor", "other")
+
+ALIKE = 1e-5
+"""Twists that differ by less than this share of what the single parameters do are the same."""
+
+
+LEADING = 0.05
+"""Parameters whose part in a direction is smaller than this share of the largest are not named."""
+
+
+@dataclass(frozen=True)
+class Symmetry:
+    """One direction that changes no reading, and what kind of motion it is.
+
+    Attributes:
+        direction: (parameters,) scaled, its largest entry 1.
+        kind: of motion.
+        motion: which motion, for kinds `base` and `sensor`: "turning about z"; "" where it has no name.
+    """
+
+    direction: Float[np.ndarray, "parameters"]
+    kind: Kind
+    motion: str = ""
+
+
+@dataclass
+class _Taken:
+    """Directions found so far, each with the parameter that it does without from then on."""
+
+    rows: list[np.ndarray] = field(default_factory=list)
+    pivots: list[int] = field(default_factory=list)
+    found: list[Symmetry] = field(default_factory=list)
+
+    def without(self, rows: np.ndarray) -> np.ndarray:
+        """Returns directions with what was found before taken off them."""
+        rows = rows.copy()
+        for known, pivot in zip(self.rows, self.pivots, strict=True):
+            rows -= np.outer(rows[:, pivot] / known[pivot], known)
+        return rows
+
+    def take(self, direction: np.ndarray, kind: Kind, motion: str = "") -> None:
+        """Adds a direction, unless the ones before it make it up."""
+        left = self.without(direction[None, :] / np.abs(direction).max())[0]
+        if np.abs(left).max() < 1e-4:
+            return
+        pivot = int(np.argmax(np.abs(left)))
+        left = np.where(np.abs(left) < ALIKE * abs(left[pivot]), 0.0, left / left[pivot])
+        self.rows.append(left)
+        self.pivots.append(pivot)
+        self.found.append(Symmetry(left, kind, motion))
+
+
+def symmetries_of(
+    unseen: Float[np.ndarray, "directions parameters"], scale: Float[np.ndarray, "parameters"], moves: Movements
+) -> list[Symmetry]:
+    """Returns a basis of a null space, made of motions that have names as far as there are any.
+
+    Args:
+        unseen: a basis of scaled directions that change no reading.
+        scale: the size by which each parameter was scaled.
+        moves: how the parameters move sensor and targets.
+    """
+    if not len(unseen):
+        return []
+    null = np.linalg.qr(unseen.T)[0].T
+    sizes = np.sqrt((moves.twists**2).sum(axis=2)).max(axis=0) * scale
+    twists = np.einsum("rpx,dp->drx", moves.twists, null * scale) / max(float(sizes.max()), 1e-300)
+    of_targets = null * np.array([bool(owner) for owner in moves.of_target])
+    taken = _Taken()
+    _take_short(taken, _vanishing(null, twists), "still")
+    if moves.targets:
+        _take_alone(taken, _vanishing(null, _off_plane(twists, moves), of_targets), "gliding")
+    constant = _vanishing(null, twists - twists.mean(axis=1, keepdims=True))
+    _take_named(taken, constant, _mean(constant, scale, moves.twists), _base_motions(moves), "base")
+    if moves.targets:
+        _take_short(taken, _vanishing(null, _off_plane(twists, moves), of_targets), "gliding")
+    own = _seen_from_sensor(twists, moves.poses)
+    fixed = _vanishing(null, own - own.mean(axis=1, keepdims=True), of_targets)
+    on_sensor = _seen_from_sensor(np.einsum("rpx,dp->drx", moves.twists, fixed * scale), moves.poses).mean(axis=1)
+    _take_named(taken, fixed, on_sensor, _AXES, "sensor")
+    _take_short(taken, null, "other")
+    return sorted(taken.found, key=lambda symmetry: KINDS.index(symmetry.kind))
+
+
+def _vanishing(null: np.ndarray, *images: np.ndarray) -> np.ndarray:
+    """Returns the combinations of null directions for which all images are zero."""
+    if not len(null):
+        return null
+    image = np.concatenate([each.reshape(len(null), -1) / np.sqrt(max(each.shape[1], 1)) for each in images], axis=1)
+    left, sizes, _ = np.linalg.svd(np.linalg.qr(image.T, mode="r").T)
+    full = np.zeros(len(null))
+    full[: len(sizes)] = sizes
+    return left[:, full < ALIKE].T @ null
+
+
+def _take_short(taken: _Taken, space: np.ndarray, kind: Kind) -> None:
+    for row in _new(taken, space):
+        taken.take(row, kind)
+
+
+def _take_alone(taken: _Taken, space: np.ndarray, kind: Kind) -> None:
+    """Takes the directions that are one parameter, or one and little beside."""
+    for row in _new(taken, space):
+        if np.count_nonzero(np.abs(row) > LEADING * np.abs(row).max()) == 1:
+            taken.take(row, kind)
+
+
+def _new(taken: _Taken, space: np.ndarray) -> np.ndarray:
+    """Returns a short basis of what a space has beyond the directions taken."""
+    if not len(space):
+        return space
+    _, sizes, rows = np.linalg.svd(taken.without(space), full_matrices=False)
+    return shortest(rows[sizes > 1e-4])
+
+
+def _take_named(taken: _Taken, space: np.ndarray, twists: np.ndarray, named: dict[str, np.ndarray], kind: Kind) -> None:
+    """Takes from a space of rigid motions those that have names, then the rest."""
+    if not len(space):
+        return
+    for name, twist in named.items():
+        parts = np.linalg.lstsq(twists.T, twist, rcond=1e-9)[0]
+        if np.linalg.norm(parts @ twists - twist) < 1e-4 * np.linalg.norm(twist):
+            taken.take(parts @ space, kind, name)
+    _take_short(taken, space, kind)
+
+
+def _mean(space: np.ndarray, scale: np.ndarray, twists: np.ndarray) -> np.ndarray:
+    return np.einsum("rpx,dp->drx", twists, space * scale).mean(axis=1)
+
+
+_AXES = {
+    f"{verb} {axis}": np.eye(6)[3 * turns + place]
+    for verb, turns in (("turning about", 1), ("shifting along", 0))
+    for axis, place in (("z", 2), ("x", 0), ("y", 1))
+}
+"""Unit twists (v, w) about and along the axes of a frame."""
+
+
+def _base_motions(moves: Movements) -> dict[str, np.ndarray]:
+    """Returns rigid motions of the base that people have words for, as twists in the world."""
+    R, origin = moves.base[:3, :3], moves.base[:3, 3]
+
+    def in_world(twist: np.ndarray) -> np.ndarray:
+        v, w = R @ twist[:3], R @ twist[3:]
+        return np.concatenate([v + np.cross(origin, w), w])
+
+    named = {name: in_world(twist) for name, twist in _AXES.items()}
+    for name, plane in moves.targets.items():
+        normal = np.asarray(plane.normal)
+        named[f"turning about the normal of plane `{name}`"] = np.concatenate([np.zeros(3), normal])
+        for axis in np.eye(3):
+            along = np.cross(normal, axis)
+            if np.linalg.norm(along) > 0.5:
+                named[f"shifting along plane `{name}`, square to {'xyz'[int(np.argmax(axis))]}"] = np.concatenate(
+                    [along / np.linalg.norm(along), np.zeros(3)]
+                )
+    return named
+
+
+def _off_plane(twists: np.ndarray, moves: Movements) -> np.ndarray:
+    """Returns (directions, rows, 4): how far each twist takes the plane a row aims at off itself."""
+    planes = list(moves.targets.values())
+    normals = np.array([plane.normal for plane in planes])[moves.aimed]
+    feet = normals * -np.array([plane.offset for plane in planes])[moves.aimed][:, None]
+    v, w = twists[..., :3], twists[..., 3:]
+    lift = np.sum(normals * (v + np.cross(w, feet)), axis=-1, keepdims=True)
+    return np.concatenate([lift, np.cross(w, np.broadcast_to(normals, w.shape))], axis=-1)
+
+
+def _seen_from_sensor(twists: np.ndarray, poses: np.ndarray) -> np.ndarray:
+    """Returns twists (directions, rows, 6) about the sensor's origin and in its axes."""
+    v, w = twists[..., :3], twists[..., 3:]
+    R, p = poses[:, :3, :3], poses[:, :3, 3]
+    moved = v + np.cross(w, np.broadcast_to(p, w.shape))
+    return np.concatenate([np.einsum("rji,drj->dri", R, moved), np.einsum("rji,drj->dri", R, w)], axis=-1)
