@@ -22,10 +22,12 @@ _HOME = {
     "Campaign": "boresight.calibration",
     "Cell": "boresight.sensing",
     "InputError": "boresight.errors",
+    "Inspection": "boresight.calibration",
     "Joint": "boresight.arm",
     "Result": "boresight.calibration",
     "Solver": "boresight.calibration",
     "calibrate": "boresight.calibration",
+    "inspect": "boresight.calibration",
     "load_campaign": "boresight.files",
     "load_robot": "boresight.files",
     "simulate": "boresight.calibration",
@@ -38,9 +40,11 @@ if TYPE_CHECKING:
     from boresight.arm import Arm as Arm
     from boresight.arm import Joint as Joint
     from boresight.calibration import Campaign as Campaign
+    from boresight.calibration import Inspection as Inspection
     from boresight.calibration import Result as Result
     from boresight.calibration import Solver as Solver
     from boresight.calibration import calibrate as calibrate
+    from boresight.calibration import inspect as inspect
     from boresight.calibration import simulate as simulate
     from boresight.errors import BoresightError as BoresightError
     from boresight.errors import InputError as InputError

@@ -72,6 +72,29 @@ def calibrate(
 
 
 @app.command
+def inspect(
+    campaign: Path,
+    *,
+    rows: int | None = None,
+    seed: int = 0,
+    json: Annotated[bool, Parameter(negative="")] = False,
+) -> int:
+    """Say what these data could identify, and how well; needs no readings.
+
+    Rank, directions that no reading can see and what would mend them, observability, predicted accuracy.
+
+    Args:
+        campaign: the campaign.yaml to inspect.
+        rows: configurations to draw; the campaign's own by default, 100 where it has none.
+        seed: of the configurations; the same seed gives the same answer.
+        json: print everything as JSON instead of a summary.
+    """
+    from boresight.cli.inspect import run_inspect
+
+    return run_inspect(campaign, rows=rows, seed=seed, as_json=json)
+
+
+@app.command
 def simulate(
     campaign: Path,
     *,

@@ -50,8 +50,10 @@ def group_reason(
     if kind == "still" and owners:
         return f", because {_unused(owners)}"
     if kind == "gliding":
-        slides = f"{they} only {'moves' if they == 'it' else 'move'} the sensor along {_planes(moves)}"
-        return f", because {reason}: {slides}" if (reason := _perpendicular(moves)) else f": {slides}"
+        slides = f"{they} only {'moves' if they == 'it' else 'move'} the sensor along"
+        if reason := _perpendicular(moves):
+            return f", because {reason}: {slides} it"
+        return f": {slides} {_planes(moves)}"
     if kind == "base":
         return f": {they} only {'moves' if they == 'it' else 'move'} the whole arm"
     if kind == "sensor":

@@ -108,7 +108,7 @@ def _vanishing(null: np.ndarray, *images: np.ndarray) -> np.ndarray:
     if not len(null):
         return null
     image = np.concatenate([each.reshape(len(null), -1) / np.sqrt(max(each.shape[1], 1)) for each in images], axis=1)
-    left, sizes, _ = np.linalg.svd(np.linalg.qr(image.T, mode="r").T)
+    left, sizes, _ = np.linalg.svd(np.transpose(np.linalg.qr(image.T, mode="r")))
     full = np.zeros(len(null))
     full[: len(sizes)] = sizes
     return left[:, full < ALIKE].T @ null

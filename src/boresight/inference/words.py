@@ -52,7 +52,7 @@ def unseen_in_words(
         symmetries = symmetries_of(found.unseen, scale, moves)
     said = []
     for kind in KINDS:
-        alone = [s for s in symmetries if s.kind == kind and len(_leading(s)) == 1]
+        alone = sorted((s for s in symmetries if s.kind == kind and len(_leading(s)) == 1), key=_leading)
         if alone:
             names = tuple(found.names[_leading(s)[0]] for s in alone)
             words = f"{_within(names, alone)} {'does' if len(names) == 1 else 'do'} not change any reading"

@@ -1,0 +1,218 @@
+"""What could these data know? Everything about identifiability and accuracy that needs no measured value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from boresight.calibration.campaign import Campaign
+from boresight.calibration.frames import find_frames
+from boresight.calibration.freedom import freedoms_of
+from boresight.calibration.left_out import LeftOut, left_out
+from boresight.calibration.problem import Problem
+from boresight.errors import InputError
+from boresight.inference import (
+    HardlySeen,
+    Observability,
+    UnseenDirection,
+    everett_count,
+    hardly_seen,
+    identify_directions,
+    movements_of,
+    observability,
+    posterior_covariance,
+    sources,
+    unseen_in_words,
+)
+from boresight.sensing import Cell, Readings
+from boresight.synthetic import draw_configurations
+from boresight.units import UNIT_OF
+
+USUAL_ROWS = 100
+"""Configurations drawn where a campaign has none."""
+
+_FRAME_SCALE = {"length": 0.02, "angle": 0.05, "number": 0.02}
+"""A typical size [m, rad, 1] of every number of a cell, to count what its configurations could see in all."""
+
+
+@dataclass(frozen=True, slots=True)
+class Prediction:
+    """How well a parameter will be known.
+
+    Attributes:
+        parameter: its name.
+        unit: m, rad or 1.
+        prior_std: what is believed before; None where nothing is.
+        std: what remains after readings with the stated noise.
+        source: whether its value will come from the `data` or from the `prior`.
+    """
+
+    parameter: str
+    unit: str
+    prior_std: float | None
+    std: float
+    source: str
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """What a campaign's configurations can and cannot know.
+
+    Attributes:
+        name: of the campaign.
+        seed: of drawn configurations and of the search for unknown frames.
+        rows: number of configurations.
+        drawn: whether they were drawn at random within the joints' limits.
+        missed: beams that look away from their planes, of all values.
+        values: number of values, `rows` times the sensor's channels.
+        noise_std: median standard deviation [m] of a value.
+        targets: names of the targets measured against.
+        free: the free parameters.
+        rank: how many directions of them the readings see.
+        condition: largest over smallest singular value seen, of the scaled Jacobian.
+        singular_values: of the scaled Jacobian, largest first.
+        observability: O1 to O5.
+        everett: C = 4 R + 2 P + 6, the independent parameters of such an arm.
+        arm_rank: how many of those these configurations could see, were all free and the targets known.
+        unseen: what changes no reading, why, and the mend.
+        hardly: what is seen too faintly to say more than the prior.
+        left_out: what the default choice of free parameters leaves out, and why.
+        predictions: the accuracy that the stated noise allows, a parameter each.
+        warnings: what a person should look at.
+        notes: choices a person should know.
+    """
+
+    name: str
+    seed: int
+    rows: int
+    drawn: bool
+    missed: int
+    values: int
+    noise_std: float
+    targets: tuple[str, ...]
+    free: tuple[str, ...]
+    rank: int
+    condition: float
+    singular_values: tuple[float, ...]
+    observability: Observability
+    everett: int
+    arm_rank: int
+    unseen: tuple[UnseenDirection, ...]
+    hardly: tuple[HardlySeen, ...]
+    left_out: tuple[LeftOut, ...]
+    predictions: tuple[Prediction, ...]
+    warnings: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def inspect(campaign: Campaign, *, rows: int | None = None, seed: int = 0) -> Inspection:
+    """Returns what a campaign's configurations could identify, were they measured with the stated noise.
+
+    The campaign's own configurations are used where it has them and `rows` does not ask for others. Frames that
+    are unknown are found from readings where there are any, and stand at the identity otherwise.
+
+    Args:
+        campaign: cell, configurations if any, and what may be wrong.
+        rows: number of configurations to draw; 100 where the campaign has none.
+        seed: of the draws.
+
+    Raises:
+        InputError: every parameter is fixed, or hardly any configuration sees a target.
+    """
+    cell, guessed = campaign.cell, bool(campaign.unknown) and campaign.readings is None
+    if campaign.readings is not None:
+        cell = find_frames(cell, campaign.readings, campaign.unknown, seed)
+    drawn = rows is not None or campaign.readings is None
+    readings = campaign.readings
+    if readings is None or rows is not None:
+        readings = _drawn(cell, rows or USUAL_ROWS, seed)
+    campaign = replace(campaign, readings=readings)
+    freedoms = freedoms_of(campaign, cell)
+    if not freedoms:
+        raise InputError(f"{campaign.name}: every parameter is fixed, so there is nothing to inspect")
+    problem = Problem(cell, readings, freedoms)
+    nominal = np.zeros(len(freedoms))
+    sensitivity = problem.sensitivity(nominal)
+    found = identify_directions(problem.names, sensitivity, problem.scale)
+    moves = movements_of(cell, readings.joints, readings.target, problem.names)
+    kinds = [joint.type for joint in cell.arm.joints]
+    missed = int(np.count_nonzero(np.isnan(cell.predict(readings.joints, readings.target))))
+    return Inspection(
+        name=campaign.name,
+        seed=seed,
+        rows=len(readings),
+        drawn=drawn,
+        missed=missed,
+        values=readings.values.size,
+        noise_std=float(np.median(readings.std)),
+        targets=tuple(np.array(list(moves.targets), dtype=str)[np.unique(readings.target)]) if moves.targets else (),
+        free=problem.names,
+        rank=found.rank,
+        condition=found.condition,
+        singular_values=tuple(float(value) for value in found.singular_values),
+        observability=observability(found.singular_values[: found.rank], len(readings)),
+        everett=everett_count(kinds.count("revolute"), kinds.count("prismatic")),
+        arm_rank=_arm_rank(cell, readings),
+        unseen=tuple(unseen_in_words(found, problem.scale, moves)),
+        hardly=hardly_seen(found, sensitivity, problem.scale, moves.quantities),
+        left_out=left_out(campaign, cell, freedoms),
+        predictions=_predictions(problem, sensitivity),
+        warnings=campaign.warnings + _warnings(problem, missed, guessed),
+        notes=campaign.notes,
+    )
+
+
+def _drawn(cell: Cell, rows: int, seed: int) -> Readings:
+    """Returns configurations that see their targets, with what would be read."""
+    joints, target = draw_configurations((cell,), rows, seed)
+    values = cell.predict(joints, target)
+    std = np.full(values.shape, cell.sensor.noise_std / np.sqrt(cell.sensor.repeats))
+    return Readings(joints, values, std, target, np.arange(rows) + 2)
+
+
+def _arm_rank(cell: Cell, readings: Readings) -> int:
+    """Returns how many combinations of all the arm's, base's and mount's numbers change the readings."""
+    moving = cell.parameters[: len(cell.chain.parameters)]
+    _, jacobian = cell.linearise(readings.joints, readings.target)
+    flat = np.nan_to_num(jacobian[:, :, : len(moving)] / readings.std[:, :, None], nan=0.0).reshape(-1, len(moving))
+    scale = np.array([_FRAME_SCALE[parameter.quantity] for parameter in moving])
+    return identify_directions(tuple(parameter.name for parameter in moving), flat, scale).rank
+
+
+def _predictions(problem: Problem, sensitivity: np.ndarray) -> tuple[Prediction, ...]:
+    std = np.sqrt(np.diag(posterior_covariance(sensitivity, problem.prior_std)))
+    source = sources(std, problem.prior_std)
+    return tuple(
+        Prediction(
+            name,
+            UNIT_OF[problem.cell.parameters[column].quantity],
+            float(prior) if np.isfinite(prior) else None,
+            float(remaining),
+            where,
+        )
+        for name, column, prior, remaining, where in zip(
+            problem.names, problem.columns, problem.prior_std, std, source, strict=True
+        )
+    )
+
+
+def _warnings(problem: Problem, missed: int, guessed: bool) -> tuple[str, ...]:
+    said = []
+    values, free = problem.readings.values.size, len(problem.names)
+    if values - missed < free:
+        said.append(
+            f"{values - missed} readings cannot tell {free} parameters: some directions below are unseen only because "
+            "there are too few. Take more readings, or free fewer parameters."
+        )
+    if missed:
+        said.append(
+            f"{missed} of {values} beams look away from their planes in the nominal model and count for nothing: "
+            "check the planes' normals and offsets, and which target each row names."
+        )
+    if guessed:
+        said.append(
+            "Frames that the campaign calls unknown stand at the identity here: with a guess for "
+            "`base` and `mount`, the numbers are nearer to what you will get."
+        )
+    return tuple(said)
