@@ -16,6 +16,10 @@ from boresight.units import in_millimetres
 
 RESAMPLES = 2000
 CONFIDENCE = 0.95
+FEWEST_ROWS = 6
+"""That n rows all improve by luck has probability 2^-n, either way 2^(1-n): below 5 % from six rows on. The
+bootstrap cannot say so: two rows that happen to improve make an interval that is certain of it."""
+
 AT_BOUND = 1e-4
 """A parameter is held back by its bound where it is nearer to it than this share of its half-width."""
 
@@ -66,11 +70,17 @@ def judge(held_out: HeldOut, fit: Fit, seed: int) -> Verdict:
     change, size = improvement(held_out, seed), held_out.residuals
     fell = f"from {in_millimetres(size.before.rms)} to {in_millimetres(size.after.rms)} RMS on {held_out.method}"
     interval = f"what is left is {change.low:.1%} to {change.high:.1%} of it, with 95 % confidence"
-    improved = change.high < 1.0
+    enough = size.count >= FEWEST_ROWS
+    improved = change.high < 1.0 and enough
     if improved:
         reasons = [f"Held-out error fell {fell}: {interval}."]
     elif size.count == 0:
         reasons = ["No held-out row could be predicted: every beam looks away from its plane. Check planes and units."]
+    elif not enough:
+        reasons = [
+            f"Held-out error went {fell}, but {size.count} held-out rows prove nothing: {FEWEST_ROWS} is the least that "
+            "can, with 95 % confidence. Take more readings."
+        ]
     else:
         reasons = [
             f"Held-out error did not fall for certain, {fell}: {interval}. "

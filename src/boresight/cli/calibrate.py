@@ -41,7 +41,8 @@ def run_calibrate(
     folder = output or Path(f"{campaign.name}-result")
     check_writable(folder)
     errors = Console(stderr=True)
-    if first_compile_ahead(evolve_generations):
+    evolves = solver != "least-squares" or bool(campaign.unknown)
+    if evolves and first_compile_ahead(evolve_generations):
         errors.print("Compiling the search for this machine; this happens once and takes about ten seconds.")
     with Progress(
         TextColumn("evolution"),
