@@ -25,6 +25,7 @@ from boresight.inference import (
     sources,
     unseen_in_words,
 )
+from boresight.inference.posterior import FLAT_PRIOR
 from boresight.sensing import Cell, Readings
 from boresight.synthetic import draw_configurations
 from boresight.units import UNIT_OF
@@ -44,7 +45,7 @@ class Prediction:
         parameter: its name.
         unit: m, rad or 1.
         prior_std: what is believed before; None where nothing is.
-        std: what remains after readings with the stated noise.
+        std: what remains after readings with the stated noise; infinite where nothing is known even then.
         source: whether its value will come from the `data` or from the `prior`.
     """
 
@@ -146,7 +147,7 @@ def inspect(campaign: Campaign, *, rows: int | None = None, seed: int = 0) -> In
         missed=missed,
         values=readings.values.size,
         noise_std=float(np.median(readings.std)),
-        targets=tuple(np.array(list(moves.targets), dtype=str)[np.unique(readings.target)]) if moves.targets else (),
+        targets=tuple(moves.aimed_at),
         free=problem.names,
         rank=found.rank,
         condition=found.condition,
@@ -188,7 +189,7 @@ def _predictions(problem: Problem, sensitivity: np.ndarray) -> tuple[Prediction,
             name,
             UNIT_OF[problem.cell.parameters[column].quantity],
             float(prior) if np.isfinite(prior) else None,
-            float(remaining),
+            float(remaining) if remaining < 0.5 * FLAT_PRIOR else np.inf,
             where,
         )
         for name, column, prior, remaining, where in zip(

@@ -30,6 +30,7 @@ class Movements:
         targets: the targets by name; empty where the sensor needs none.
         base: `T_world_base`.
         first_axis: direction of the first joint's axis in the world.
+        values: how many values are read in all.
     """
 
     names: tuple[str, ...]
@@ -41,6 +42,18 @@ class Movements:
     targets: dict[str, Plane]
     base: Float[np.ndarray, "4 4"]
     first_axis: Float[np.ndarray, "3"]
+    values: int
+
+    @property
+    def aimed_at(self) -> list[str]:
+        """The targets that some row aims at."""
+        used = set(self.aimed.tolist())
+        return [name for place, name in enumerate(self.targets) if place in used]
+
+    @property
+    def too_few(self) -> bool:
+        """Whether there are fewer values than parameters, so that more is unseen than symmetry explains."""
+        return self.values < len(self.names)
 
 
 def movements_of(
@@ -83,4 +96,5 @@ def movements_of(
         dict(targets) if cell.sensor.needs_target else {},
         cell.base.matrix,
         axis,
+        len(joints) * len(cell.sensor.channels),
     )

@@ -17,8 +17,6 @@ def opening(symmetry: Symmetry, moves: Movements | None) -> str:
     if moves is None:
         return ""
     owners = {moves.of_target[i] for i in np.flatnonzero(symmetry.direction) if moves.of_target[i]}
-    if symmetry.kind == "still":
-        return "in these configurations one undoes what the other does" if not owners else _unused(owners)
     if symmetry.kind == "gliding":
         return f"moving them together only slides the sensor along {_planes(moves)}"
     if symmetry.kind == "base":
@@ -26,7 +24,7 @@ def opening(symmetry: Symmetry, moves: Movements | None) -> str:
         motion = symmetry.motion.replace(verb, f"{verb} the base", 1) if symmetry.motion else "moving the base"
         if owners:
             return f"{motion} while {verb} {_named(sorted(owners))} with it changes no reading"
-        return f"{motion} changes no reading, as {_planes(moves)} {_stay(moves)}"
+        return f"{motion} changes no reading" + ("" if "`" in motion else f", as {_planes(moves)} {_stay(moves)}")
     if symmetry.kind == "sensor":
         if symmetry.motion == "turning about z" and moves.targets:
             return "spin about the beam is not seen"
@@ -64,30 +62,38 @@ def group_reason(
     return ""
 
 
-def mend(kind: Kind, names: tuple[str, ...], moves: Movements | None) -> str:
+def mend(kind: Kind, names: tuple[str, ...], moves: Movements | None, motion: str = "", alone: bool = False) -> str:
     """Returns what would show a direction, or do without it.
 
     Args:
         kind: of motion.
         names: the parameters of the direction, the largest part first.
         moves: how they move sensor and targets.
+        motion: which motion, if it has a name.
+        alone: each of the parameters is a direction of its own.
     """
     fixable = min(names, key=lambda name: (_is_target(name, moves), names.index(name)))
+    if kind == "still" and all(_is_target(name, moves) for name in names):
+        return "aim some rows at it, or leave it out of `estimate:`"
+    if alone and kind in ("still", "base", "sensor"):
+        matters = "; if the tool needs it, measure it by other means" if kind == "sensor" else ""
+        return f"fix {'it' if len(names) == 1 else 'them'}: `fixed: [{', '.join(names)}]`{matters}"
     if kind == "still":
-        return f"fix all but one of them, say `fixed: [{_least_physical(names)}]`" if len(names) > 1 else "fix it"
+        return f"fix one of them, say `fixed: [{_least_physical(names)}]`"
     if kind == "gliding":
         plane = _planes(moves) if moves else "the plane"
         which = "it" if len(names) == 1 else "them"
-        return f"measure against one more plane, not parallel to {plane}, or fix {which}: ranges never need {which}"
+        return f"measure against one more plane, not parallel to {plane}, or fix {which}, as these ranges need not know"
     if kind == "base":
         if any(_is_target(name, moves) for name in names):
+            known = " (a known azimuth)" if motion == "turning about z" else ""
             return (
-                f"fix {fixable}, which then defines the base, or survey the plane and fix its parameters "
-                "(a known azimuth), or give one a `prior_std`"
+                f"fix {fixable}, which then defines where the base is; or survey the plane{known} and fix its "
+                "parameters, or add a surveyed one; or give one of them a tighter `prior_std`"
             )
         return f"measure against one more plane that is not parallel to these, or fix {fixable}"
     if kind == "sensor":
-        return f"fix {_least_physical(names)}; if that matters for the tool, measure it by other means"
+        return f"fix {_least_physical(names)}; if the tool needs it, measure it by other means"
     return "measure more or other configurations, fix one of them, or give one a tighter `prior_std`"
 
 
@@ -104,7 +110,7 @@ def _least_physical(names: tuple[str, ...]) -> str:
 
 
 def _planes(moves: Movements) -> str:
-    return _named(list(moves.targets)) if moves.targets else "its target"
+    return _named(moves.aimed_at) if moves.targets else "its target"
 
 
 def _named(targets: list[str]) -> str:
@@ -114,7 +120,7 @@ def _named(targets: list[str]) -> str:
 
 
 def _stay(moves: Movements) -> str:
-    return "stays where it is" if len(moves.targets) == 1 else "stay where they are"
+    return "stays where it is" if len(moves.aimed_at) == 1 else "stay where they are"
 
 
 def _unused(owners: set[str]) -> str:
@@ -124,8 +130,8 @@ def _unused(owners: set[str]) -> str:
 def _perpendicular(moves: Movements) -> str:
     """Returns that the planes are perpendicular to the first axis, or "" where they are not."""
     axis = moves.first_axis
-    for plane in moves.targets.values():
-        if np.linalg.norm(np.cross(axis, plane.normal)) > np.sin(_SQUARE):
+    for name in moves.aimed_at:
+        if np.linalg.norm(np.cross(axis, moves.targets[name].normal)) > np.sin(_SQUARE):
             return ""
-    verb = "is" if len(moves.targets) == 1 else "are"
+    verb = "is" if len(moves.aimed_at) == 1 else "are"
     return f"{_planes(moves)} {verb} perpendicular to the first axis" if moves.targets else ""

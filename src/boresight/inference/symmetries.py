@@ -17,6 +17,7 @@ from jaxtyping import Float
 
 from boresight.inference.identifiability import shortest
 from boresight.inference.movements import Movements
+from boresight.inference.rigid import AXES, base_motions, off_plane, seen_from_sensor
 
 Kind = Literal["still", "gliding", "base", "sensor", "other"]
 KINDS: tuple[Kind, ...] = ("still", "gliding", "base", "sensor", "other")
@@ -90,15 +91,15 @@ def symmetries_of(
     taken = _Taken()
     _take_short(taken, _vanishing(null, twists), "still")
     if moves.targets:
-        _take_alone(taken, _vanishing(null, _off_plane(twists, moves), of_targets), "gliding")
+        _take_alone(taken, _vanishing(null, off_plane(twists, moves), of_targets), "gliding")
     constant = _vanishing(null, twists - twists.mean(axis=1, keepdims=True))
-    _take_named(taken, constant, _mean(constant, scale, moves.twists), _base_motions(moves), "base")
-    if moves.targets:
-        _take_short(taken, _vanishing(null, _off_plane(twists, moves), of_targets), "gliding")
-    own = _seen_from_sensor(twists, moves.poses)
+    _take_named(taken, constant, _mean(constant, scale, moves.twists), base_motions(moves), "base")
+    if moves.targets and not moves.too_few:  # a few rows are glided over by many motions that have no reason
+        _take_short(taken, _vanishing(null, off_plane(twists, moves), of_targets), "gliding")
+    own = seen_from_sensor(twists, moves.poses)
     fixed = _vanishing(null, own - own.mean(axis=1, keepdims=True), of_targets)
-    on_sensor = _seen_from_sensor(np.einsum("rpx,dp->drx", moves.twists, fixed * scale), moves.poses).mean(axis=1)
-    _take_named(taken, fixed, on_sensor, _AXES, "sensor")
+    on_sensor = seen_from_sensor(np.einsum("rpx,dp->drx", moves.twists, fixed * scale), moves.poses).mean(axis=1)
+    _take_named(taken, fixed, on_sensor, AXES, "sensor")
     _take_short(taken, null, "other")
     return sorted(taken.found, key=lambda symmetry: KINDS.index(symmetry.kind))
 
@@ -147,50 +148,3 @@ def _take_named(taken: _Taken, space: np.ndarray, twists: np.ndarray, named: dic
 
 def _mean(space: np.ndarray, scale: np.ndarray, twists: np.ndarray) -> np.ndarray:
     return np.einsum("rpx,dp->drx", twists, space * scale).mean(axis=1)
-
-
-_AXES = {
-    f"{verb} {axis}": np.eye(6)[3 * turns + place]
-    for verb, turns in (("turning about", 1), ("shifting along", 0))
-    for axis, place in (("z", 2), ("x", 0), ("y", 1))
-}
-"""Unit twists (v, w) about and along the axes of a frame."""
-
-
-def _base_motions(moves: Movements) -> dict[str, np.ndarray]:
-    """Returns rigid motions of the base that people have words for, as twists in the world."""
-    R, origin = moves.base[:3, :3], moves.base[:3, 3]
-
-    def in_world(twist: np.ndarray) -> np.ndarray:
-        v, w = R @ twist[:3], R @ twist[3:]
-        return np.concatenate([v + np.cross(origin, w), w])
-
-    named = {name: in_world(twist) for name, twist in _AXES.items()}
-    for name, plane in moves.targets.items():
-        normal = np.asarray(plane.normal)
-        named[f"turning about the normal of plane `{name}`"] = np.concatenate([np.zeros(3), normal])
-        for axis in np.eye(3):
-            along = np.cross(normal, axis)
-            if np.linalg.norm(along) > 0.5:
-                named[f"shifting along plane `{name}`, square to {'xyz'[int(np.argmax(axis))]}"] = np.concatenate(
-                    [along / np.linalg.norm(along), np.zeros(3)]
-                )
-    return named
-
-
-def _off_plane(twists: np.ndarray, moves: Movements) -> np.ndarray:
-    """Returns (directions, rows, 4): how far each twist takes the plane a row aims at off itself."""
-    planes = list(moves.targets.values())
-    normals = np.array([plane.normal for plane in planes])[moves.aimed]
-    feet = normals * -np.array([plane.offset for plane in planes])[moves.aimed][:, None]
-    v, w = twists[..., :3], twists[..., 3:]
-    lift = np.sum(normals * (v + np.cross(w, feet)), axis=-1, keepdims=True)
-    return np.concatenate([lift, np.cross(w, np.broadcast_to(normals, w.shape))], axis=-1)
-
-
-def _seen_from_sensor(twists: np.ndarray, poses: np.ndarray) -> np.ndarray:
-    """Returns twists (directions, rows, 6) about the sensor's origin and in its axes."""
-    v, w = twists[..., :3], twists[..., 3:]
-    R, p = poses[:, :3, :3], poses[:, :3, 3]
-    moved = v + np.cross(w, np.broadcast_to(p, w.shape))
-    return np.concatenate([np.einsum("rji,drj->dri", R, moved), np.einsum("rji,drj->dri", R, w)], axis=-1)

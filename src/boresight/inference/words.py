@@ -51,17 +51,31 @@ def unseen_in_words(
     else:
         symmetries = symmetries_of(found.unseen, scale, moves)
     said = []
+    if moves is not None and moves.too_few:
+        unexplained = [symmetry for symmetry in symmetries if symmetry.kind == "other"]
+        symmetries = [symmetry for symmetry in symmetries if symmetry.kind != "other"]
+        said += _too_few(found, unexplained, moves.values) if unexplained else []
     for kind in KINDS:
         alone = sorted((s for s in symmetries if s.kind == kind and len(_leading(s)) == 1), key=_leading)
         if alone:
             names = tuple(found.names[_leading(s)[0]] for s in alone)
             words = f"{_within(names, alone)} {'does' if len(names) == 1 else 'do'} not change any reading"
             words += group_reason(kind, names, alone, scale, moves)
-            said.append(UnseenDirection(names, words, mend(kind, names, moves), len(names)))
+            said.append(UnseenDirection(names, words, mend(kind, names, moves, alone=True), len(names)))
         for symmetry in symmetries:
             if symmetry.kind == kind and len(_leading(symmetry)) > 1:
                 said.append(_together(found.names, symmetry, scale, moves))
     return said
+
+
+def _too_few(found: Identifiability, symmetries: list[Symmetry], values: int) -> list[UnseenDirection]:
+    """Returns one sentence for all directions that are unseen only for want of readings."""
+    largest = np.max([np.abs(symmetry.direction) for symmetry in symmetries], axis=0)
+    names = tuple(found.names[i] for i in np.flatnonzero(largest > LEADING))
+    count = len(symmetries)
+    many = "one combination" if count == 1 else f"{count} combinations"
+    words = f"{many} of {listed(names)} cannot be told: there are {values} values for {len(found.names)} parameters"
+    return [UnseenDirection(names, words, "take more readings, or free fewer parameters", count)]
 
 
 def listed(names: tuple[str, ...] | list[str], most: int = 8) -> str:
@@ -101,11 +115,14 @@ def _together(
     if share := _left_out(symmetry):
         apart += f" (to within {_percent(share)})"
     reason = opening(symmetry, moves)
-    if reason:
+    if symmetry.kind == "still":
+        same = "both move the sensor alike" if len(names) == 2 else "each moves the sensor as the others together do"
+        words = f"{apart}: {same}, in every configuration"
+    elif reason:
         words = f"{reason}: {apart}"
     else:
         words = f"{apart}: {_moving(names, (symmetry.direction * scale)[places], places, moves)} changes no reading"
-    return UnseenDirection(names, words, mend(symmetry.kind, names, moves))
+    return UnseenDirection(names, words, mend(symmetry.kind, names, moves, symmetry.motion))
 
 
 def _moving(

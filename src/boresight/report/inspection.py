@@ -62,7 +62,7 @@ def inspection_document(inspection: Inspection, version: str) -> dict[str, Any]:
                 "name": prediction.parameter,
                 "unit": prediction.unit,
                 "prior_std": prediction.prior_std,
-                "std": prediction.std,
+                "std": _number(prediction.std),
                 "source": prediction.source,
             }
             for prediction in inspection.predictions
@@ -143,7 +143,9 @@ def _remaining(prediction: Prediction) -> float:
 
 
 def _amount(value: float, unit: str) -> str:
-    """Returns an amount [m, rad or 1] in mm, mrad or as it is, with three digits."""
+    """Returns an amount [m, rad or 1] in mm, mrad or as it is, with three digits; an infinite one is not known."""
+    if not math.isfinite(value):
+        return "unknown"
     if unit == "1":
         return f"{value:.3g}"
     return f"{value * 1e3:.3g} {'mm' if unit == 'm' else 'mrad'}"
