@@ -49,10 +49,10 @@ def test_a_generation_can_be_asked_for_twice():
 def test_telling_changes_no_value_that_was_given():
     settings = DifferentialEvolution(population=40)
     population = evaluated(settings)
-    before = population.lanes.copy()
+    before = population.members.copy()
     trials = ask(settings, BOX, population)
     tell(population, trials, sphere(trials))
-    assert np.array_equal(population.lanes, before)
+    assert np.array_equal(population.members, before)
 
 
 def test_no_member_ever_gets_worse_or_leaves_the_box():

@@ -59,8 +59,11 @@ def build_links(program, members, start, links, scratch):
                     v += _LANES
             else:
                 column, origin = link + np.uint64(axis) * _COLUMN, link + _ORIGIN
-                for i in range(_COLUMN):
-                    links[origin + i] += scratch[i % _LANES] * links[column + i]
+                for _ in range(3):
+                    for i in range(_LANES):
+                        links[origin + i] += scratch[i] * links[column + i]
+                    column += _LANES
+                    origin += _LANES
 
 
 @compiled

@@ -9,7 +9,7 @@ from boresight.kernels.sweeping import sweep
 
 @compiled
 def evolve_generations(
-    program, rows, work, breeding, run, members, costs, count, trials, trial_costs, draws, first, stale, limits, history
+    program, rows, work, breeding, run, members, costs, trials, lanes, lane_costs, first, stale, limits, history
 ):
     """Runs generations until the history is full or a limit is met; nothing is allocated a generation.
 
@@ -19,12 +19,11 @@ def evolve_generations(
         work: the thread's memory.
         breeding: the strategy and its box.
         run: key of the run.
-        members: (parameters, lanes) the population, changed in place.
-        costs: (lanes,) its costs, changed in place.
-        count: number of members; the lanes beyond are spare.
-        trials: (parameters, lanes) work space.
-        trial_costs: (lanes,) work space.
-        draws: work space.
+        members: (members, parameters) the population, changed in place.
+        costs: (members,) its costs, changed in place.
+        trials: (members, parameters) work space.
+        lanes: (parameters, lanes) work space.
+        lane_costs: (lanes,) work space.
         first: number of the first generation to run.
         stale: generations since the best last improved, and the cost it is compared with.
         limits: cost at which to stop, stale generations at which to stop, relative improvement that counts.
@@ -35,12 +34,12 @@ def evolve_generations(
     """
     since, reference = stale
     target, patience, tolerance = limits
-    best, lowest, _ = summarise(costs, count)
+    best, lowest, mean = summarise(costs)
     for step in range(history.shape[0]):
-        breed(run, first + step, breeding, members, count, best, draws, trials)
-        sweep(program, rows, work, trials, trial_costs)
-        select(members, costs, trials, trial_costs)
-        best, lowest, mean = summarise(costs, count)
+        breed(run, first + step, breeding, members, best, trials, lanes)
+        sweep(program, rows, work, lanes, lane_costs)
+        select(members, costs, trials, lane_costs)
+        best, lowest, mean = summarise(costs)
         history[step, 0], history[step, 1] = lowest, mean
         if lowest < reference * (1.0 - tolerance):
             reference = lowest

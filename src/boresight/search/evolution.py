@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from boresight.kernels.breeding import Breeding, breed, draws_for, select, sow, summarise
-from boresight.kernels.programs import WORST, padded
+from boresight.kernels.breeding import Breeding, breed, select, sow, summarise
+from boresight.kernels.programs import WORST, aligned, padded
 from boresight.kernels.random import run_key
 from boresight.search.box import Box
 from boresight.search.strategies import TRADE_OFF, Strategy
@@ -56,25 +56,20 @@ class Population:
 
     Attributes:
         key: key of the run's random numbers.
-        lanes: (parameters, lanes) members as columns, padded to whole tiles by copies of the first.
+        members: (members, parameters) one a row.
         costs: (members,) their costs; `WORST` before the first `tell`.
         generation: generations completed; 0 before the first `tell`.
     """
 
     key: int
-    lanes: Float[np.ndarray, "parameters lanes"]
+    members: Float[np.ndarray, "members parameters"]
     costs: Float[np.ndarray, "members"]
     generation: int = 0
 
     @property
-    def members(self) -> Float[np.ndarray, "members parameters"]:
-        """The members, one a row."""
-        return self.lanes[:, : len(self.costs)].T
-
-    @property
     def best(self) -> Float[np.ndarray, "parameters"]:
         """The member of lowest cost."""
-        return self.lanes[:, int(np.argmin(self.costs))].copy()
+        return self.members[int(np.argmin(self.costs))].copy()
 
     @property
     def best_cost(self) -> float:
@@ -84,37 +79,29 @@ class Population:
 
 def seed_population(settings: DifferentialEvolution, box: Box, seed: int, run: int = 0) -> Population:
     """Returns a first population, uniform in the box (paper, step 3), not yet evaluated."""
-    lanes = np.empty((len(box), padded(settings.population)))
+    members = aligned(settings.population, len(box))
     key = int(run_key(np.uint64(seed), np.uint64(run)))
-    sow(np.uint64(key), box.lower, box.upper, settings.population, lanes)
-    return Population(key, lanes, np.full(settings.population, WORST))
+    sow(np.uint64(key), box.lower, box.upper, members)
+    return Population(key, members, np.full(settings.population, WORST))
 
 
 def ask(settings: DifferentialEvolution, box: Box, population: Population) -> Float[np.ndarray, "members parameters"]:
     """Returns the members to evaluate next: the first population itself, then trials bred from it."""
     if population.generation == 0:
         return population.members.copy()
-    count = len(population.costs)
-    trials = np.empty_like(population.lanes)
-    best, _, _ = summarise(population.costs, count)
-    breed(
-        np.uint64(population.key),
-        population.generation,
-        settings.breeding(box),
-        population.lanes,
-        count,
-        best,
-        draws_for(count),
-        trials,
-    )
-    return trials[:, :count].T
+    count, parameters = population.members.shape
+    trials, lanes = aligned(count, parameters), aligned(parameters, padded(count))
+    best, _, _ = summarise(population.costs)
+    key = np.uint64(population.key)
+    breed(key, population.generation, settings.breeding(box), population.members, best, trials, lanes)
+    return trials
 
 
 def tell(
     population: Population, trials: Float[np.ndarray, "members parameters"], costs: Float[np.ndarray, "members"]
 ) -> Population:
     """Returns the next generation: of each member and its trial, the cheaper (paper, eq. 18)."""
-    lanes, kept = population.lanes.copy(), population.costs.copy()
+    members, kept = population.members.copy(), population.costs.copy()
     told = np.where(np.isnan(costs), WORST, np.minimum(costs, WORST))
-    select(lanes[:, : len(kept)], kept, np.ascontiguousarray(trials.T), told)
-    return replace(population, lanes=lanes, costs=kept, generation=population.generation + 1)
+    select(members, kept, np.ascontiguousarray(trials), told)
+    return replace(population, members=members, costs=kept, generation=population.generation + 1)

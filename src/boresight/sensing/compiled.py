@@ -10,9 +10,8 @@ from jaxtyping import Float
 
 from boresight.arm import Chain, Motion
 from boresight.geometry import Plane
-from boresight.kernels.breeding import draws_for
 from boresight.kernels.evolving import evolve_generations
-from boresight.kernels.programs import FIXED, SHIFT, TURN, WORST, Program, Rows, padded, workspace
+from boresight.kernels.programs import FIXED, SHIFT, TURN, Program, Rows, aligned, padded, workspace
 from boresight.kernels.sweeping import sweep
 from boresight.search import Box, DifferentialEvolution, Population, Staleness, Stops, Stretch
 from boresight.sensing.cell import Cell
@@ -123,10 +122,11 @@ class CompiledCost:
         generations: int,
     ) -> Stretch:
         """Returns the population some generations later, or at the first stop."""
-        count = len(population.costs)
-        lanes = population.lanes.copy()
-        costs = np.full(lanes.shape[1], WORST)
-        costs[:count] = population.costs
+        count, parameters = population.members.shape
+        members, trials = aligned(count, parameters), aligned(count, parameters)
+        members[:] = population.members
+        costs = population.costs.copy()
+        lanes = aligned(parameters, padded(count))
         history = np.empty((generations, 2))
         done, stale, reference = evolve_generations(
             self._program,
@@ -134,16 +134,15 @@ class CompiledCost:
             self._work,
             settings.breeding(box),
             np.uint64(population.key),
-            lanes,
+            members,
             costs,
-            count,
-            np.empty_like(lanes),
-            np.empty_like(costs),
-            draws_for(count),
+            trials,
+            lanes,
+            aligned(lanes.shape[1]),
             population.generation,
             (staleness.generations, staleness.reference),
             (stops.cost, stops.patience, stops.improvement),
             history,
         )
-        after = replace(population, lanes=lanes, costs=costs[:count].copy(), generation=population.generation + done)
+        after = replace(population, members=members, costs=costs, generation=population.generation + done)
         return Stretch(after, Staleness(stale, reference), history[:done])
