@@ -2,9 +2,14 @@
 
 import math
 import os
+import shutil
 
 import pytest
-from conftest import content
+from example_files import EXAMPLES, content
+
+from boresight.calibration import Solver, calibrate
+from boresight.files import load_campaign
+from boresight.report import write_result
 
 YAML_FAULTS = {
     "unknown tag": ("units: {length: m, angle: rad}", "units: !!python/object:os.system {length: m}", "the tag"),
@@ -24,12 +29,19 @@ YAML_FAULTS = {
 }
 
 
+@pytest.fixture(scope="session")
+def accepted_result(tmp_path_factory):
+    campaign = load_campaign(EXAMPLES / "space-arm-one-plane" / "campaign.yaml")
+    return write_result(calibrate(campaign, Solver("least-squares")), tmp_path_factory.mktemp("earlier"), "0")
+
+
 @pytest.fixture
-def refused(boresight, one_plane, tmp_path):
+def refused(boresight, one_plane, tmp_path, accepted_result):
     """Calibrates into a folder that holds an accepted result, and returns the message."""
+    shutil.copytree(accepted_result, tmp_path / "earlier")
+    before = content(accepted_result)
 
     def refusal(*options):
-        before = content(tmp_path / "earlier")
         said = boresight("calibrate", one_plane.campaign, "-o", "earlier", *options)
         assert said.code == 1
         assert said.out == ""
@@ -38,8 +50,6 @@ def refused(boresight, one_plane, tmp_path):
         assert not (tmp_path / "earlier-rejected").exists()
         return said.err
 
-    said = boresight("calibrate", one_plane.campaign, "-o", "earlier", "--solver", "least-squares")
-    assert said.code == 0
     return refusal
 
 

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from conftest import content
+from example_files import content
 
 QUICK = ("--solver", "least-squares")
 FILES = {"convergence.csv", "report.html", "residuals.csv", "result.json", "robot-calibrated.yaml"}

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from conftest import content
+from example_files import content
 
 from boresight.files import load_campaign, load_robot
 

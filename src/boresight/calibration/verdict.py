@@ -78,8 +78,8 @@ def judge(held_out: HeldOut, fit: Fit, seed: int) -> Verdict:
         reasons = ["No held-out row could be predicted: every beam looks away from its plane. Check planes and units."]
     elif not enough:
         reasons = [
-            f"Held-out error went {fell}, but {size.count} held-out rows prove nothing: {FEWEST_ROWS} is the least that "
-            "can, with 95 % confidence. Take more readings."
+            f"Held-out error went {fell}, but {size.count} held-out rows prove nothing: {FEWEST_ROWS} is the least "
+            "that can, with 95 % confidence. Take more readings."
         ]
     else:
         reasons = [
