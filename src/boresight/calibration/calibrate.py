@@ -17,8 +17,18 @@ from boresight.calibration.robust import Fit
 from boresight.calibration.solve import Progress, Solver, solve
 from boresight.calibration.verdict import judge
 from boresight.errors import InputError
-from boresight.inference import identify_directions, movements_of, unseen_in_words
+from boresight.inference import (
+    identify_directions,
+    movements_of,
+    pose_uncertainty,
+    spread_configurations,
+    uncalibrated_in_words,
+    unseen_in_words,
+)
 from boresight.sensing import Cell, Readings
+
+WORKSPACE_CONFIGURATIONS = 500
+"""Configurations at which the tool's uncertainty over the work space is told."""
 
 MANY_LEFT_OUT = 0.1
 """Share of rows left out beyond which a person should look before using the result."""
@@ -54,15 +64,18 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         held_out = on_validation_rows(nominal, identified, campaign.validation)
     else:
         held_out = by_cross_validation(solution.fit, solver.seed)
+    spread = spread_configurations(identified, WORKSPACE_CONFIGURATIONS)
+    in_workspace = pose_uncertainty(identified, problem.names, covariance, spread)
+    unseen = tuple(Unseen(each.parameters, each.words) for each in unseen_in_words(found, problem.scale, moves))
     return Result(
         name=campaign.name,
         cell=identified,
         nominal=nominal,
-        verdict=judge(held_out, solution.fit, solver.seed),
+        verdict=judge(held_out, solution.fit, solver.seed, uncalibrated_in_words(in_workspace) if unseen else None),
         estimates=estimates_of(problem, identified, covariance, campaign.cell, campaign.unknown),
         free=len(freedoms),
         rank=found.rank,
-        unseen=tuple(Unseen(each.parameters, each.words) for each in unseen_in_words(found, problem.scale, moves)),
+        unseen=unseen,
         calibration=_fitted_errors(nominal, identified, readings.chosen(solution.fit.kept)),
         validation=held_out.residuals,
         outliers=find_outliers(solution.fit),
@@ -74,6 +87,15 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         solver=solver,
         covariance=covariance,
         free_names=problem.names,
+        at_rows=pose_uncertainty(
+            identified,
+            problem.names,
+            covariance,
+            (readings if campaign.validation is None else campaign.validation).joints,
+        ),
+        in_workspace=pose_uncertainty(
+            identified, problem.names, covariance, spread_configurations(identified, WORKSPACE_CONFIGURATIONS)
+        ),
         set_aside=campaign.set_aside,
         warnings=campaign.warnings + _warnings(solution.fit),
         notes=campaign.notes + left_out_in_words(left_out(campaign, nominal, freedoms)),

@@ -10,6 +10,7 @@ from jaxtyping import Float
 
 from boresight.calibration.campaign import SetAside
 from boresight.calibration.solve import Solution, Solver
+from boresight.inference import PoseUncertainty
 from boresight.sensing import Cell, Readings
 
 
@@ -133,6 +134,8 @@ class Result:
         solver: how it was set.
         covariance: (free, free) posterior covariance of the corrections.
         free_names: the free parameters.
+        at_rows: uncertainty of the tool's pose at the validation rows, or the calibration rows if there are none.
+        in_workspace: uncertainty of the tool's pose at configurations spread within the joints' limits.
         set_aside: rows that were not used.
         warnings: what a person should look at.
         notes: choices a person should know.
@@ -158,7 +161,20 @@ class Result:
     solver: Solver
     covariance: Float[np.ndarray, "free free"]
     free_names: tuple[str, ...]
+    at_rows: PoseUncertainty
+    in_workspace: PoseUncertainty
     set_aside: tuple[SetAside, ...]
     warnings: tuple[str, ...]
     notes: tuple[str, ...]
     inputs: Mapping[str, str]
+
+    def correlations(self, above: float = 0.9) -> list[tuple[str, str, float]]:
+        """Returns the pairs of free parameters whose errors go together, the strongest first."""
+        std = np.sqrt(np.diag(self.covariance))
+        correlation = self.covariance / np.outer(std, std)
+        first, second = np.nonzero(np.triu(np.abs(correlation) > above, 1))
+        pairs = [
+            (self.free_names[i], self.free_names[j], float(correlation[i, j]))
+            for i, j in zip(first, second, strict=True)
+        ]
+        return sorted(pairs, key=lambda pair: -abs(pair[2]))

@@ -94,6 +94,7 @@ def solve(problem: Problem, solver: Solver, on_progress: Progress | None = None)
     if solver.name == "least-squares":
         stage = _stage("least squares from the nominal model", direct, direct)
         return Solution(direct, (stage,), np.empty((0, 2)), stage, True)
+    problem.robust_cost.load(solver.evolution, problem.box)
     evolved = evolve(
         problem.robust_cost, problem.box, solver.evolution, solver.stops, seed=solver.seed, on_progress=on_progress
     )

@@ -58,13 +58,14 @@ def improvement(held_out: HeldOut, seed: int) -> Improvement:
     return Improvement(_ratio(before, after), float(low), float(high))
 
 
-def judge(held_out: HeldOut, fit: Fit, seed: int) -> Verdict:
+def judge(held_out: HeldOut, fit: Fit, seed: int, uncalibrated: str | None) -> Verdict:
     """Returns the verdict and its reasons.
 
     Args:
         held_out: errors on rows that were not fitted.
         fit: the final fit.
         seed: of the bootstrap.
+        uncalibrated: what of the tool's pose the readings cannot see, in words, if anything.
     """
     problem, model_std = fit.problem, fit.problem.model_std
     change, size = improvement(held_out, seed), held_out.residuals
@@ -90,6 +91,8 @@ def judge(held_out: HeldOut, fit: Fit, seed: int) -> Verdict:
     if stuck:
         verb = "sits at its bound" if len(stuck) == 1 else "sit at their bounds"
         reasons.append(f"{listed(stuck)} {verb}: widen `within` for them, or look for a wrong nominal value or unit.")
+    if uncalibrated:
+        reasons.append(uncalibrated)
     noise = float(np.median(problem.readings.std))
     if model_std > LOUD * noise:
         reasons.append(

@@ -11,6 +11,10 @@ from boresight.inference.movements import movements_of as movements_of
 from boresight.inference.observability import Observability as Observability
 from boresight.inference.observability import everett_count as everett_count
 from boresight.inference.observability import observability as observability
+from boresight.inference.pose import PoseUncertainty as PoseUncertainty
+from boresight.inference.pose import pose_uncertainty as pose_uncertainty
+from boresight.inference.pose import spread_configurations as spread_configurations
+from boresight.inference.pose import uncalibrated_in_words as uncalibrated_in_words
 from boresight.inference.posterior import posterior_covariance as posterior_covariance
 from boresight.inference.posterior import sources as sources
 from boresight.inference.words import UnseenDirection as UnseenDirection

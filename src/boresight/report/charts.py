@@ -167,7 +167,7 @@ def _corrections(
     return CorrectionsChart(title, shown_unit, x, float(x.at(np.array(0.0))), tuple(bars), 20 + len(bars) * _ROW_HEIGHT)
 
 
-def _thinned(count: int, sizes: Float[np.ndarray, rows]) -> Bool[np.ndarray, rows]:
+def _thinned(count: int, sizes: Float[np.ndarray, "rows"]) -> Bool[np.ndarray, "rows"]:
     """Returns which rows to draw: evenly spaced ones, and the largest."""
     if count <= _MOST_ROWS:
         return np.ones(count, dtype=bool)
@@ -177,7 +177,7 @@ def _thinned(count: int, sizes: Float[np.ndarray, rows]) -> Bool[np.ndarray, row
     return drawn
 
 
-def _marks(across: Float[np.ndarray, rows], up: Float[np.ndarray, rows], drawn: np.ndarray, mark: str) -> str:
+def _marks(across: Float[np.ndarray, "rows"], up: Float[np.ndarray, "rows"], drawn: np.ndarray, mark: str) -> str:
     kept = drawn & np.isfinite(up)
     return "".join(f"M{x:.1f} {y:.1f}{mark}" for x, y in zip(across[kept], up[kept], strict=True))
 

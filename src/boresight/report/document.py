@@ -6,9 +6,13 @@ import json
 import math
 from typing import Any
 
+import numpy as np
+
 from boresight.calibration.result import ErrorSummary, Residuals, Result
 from boresight.calibration.solve import Stage
 from boresight.geometry import Frame
+from boresight.inference import PoseUncertainty
+from boresight.inference.pose import COVERAGE
 
 SCHEMA = "boresight-result/1"
 """Name and version of the layout; the number grows when a key changes its meaning or goes."""
@@ -50,6 +54,10 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
         "targets": {
             name: {"normal": list(plane.normal), "offset": plane.offset} for name, plane in result.cell.targets.items()
         },
+        "correlations": [
+            {"parameters": [first, second], "correlation": value} for first, second, value in result.correlations()
+        ],
+        "pose_uncertainty": {"rows": _pose(result.at_rows), "workspace": _pose(result.in_workspace)},
         "outliers": [
             {
                 "line": outlier.line,
@@ -85,6 +93,25 @@ def _residuals(residuals: Residuals) -> dict[str, Any]:
 
 def _summary(summary: ErrorSummary) -> dict[str, float | None]:
     return {"rms": _number(summary.rms), "max": _number(summary.max)}
+
+
+def _pose(uncertainty: PoseUncertainty) -> dict[str, Any]:
+    """Returns the tool's uncertainty over some configurations: root mean square and worst, k = 2 beside k = 1."""
+    return {
+        "count": len(uncertainty.joints),
+        "position": _spread("m", uncertainty.position_std, uncertainty.position_95),
+        "orientation": _spread("rad", uncertainty.orientation_std, uncertainty.orientation_95),
+    }
+
+
+def _spread(unit: str, std: np.ndarray, radius_95: np.ndarray) -> dict[str, Any]:
+    typical = float(np.sqrt(np.mean(std**2)))
+    return {
+        "unit": unit,
+        "standard": typical,
+        "expanded": COVERAGE * typical,
+        "radius_95": {"median": float(np.median(radius_95)), "max": float(np.max(radius_95))},
+    }
 
 
 def _search(result: Result) -> dict[str, Any]:

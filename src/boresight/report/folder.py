@@ -14,10 +14,17 @@ from boresight.errors import OutputError
 from boresight.files import dump_robot
 from boresight.report.document import SCHEMA, result_json
 from boresight.report.page import render_page
-from boresight.report.tables import convergence_csv, residuals_csv
+from boresight.report.tables import convergence_csv, pose_uncertainty_csv, residuals_csv
 
 RESULT_FILE = "result.json"
-_OURS = ("robot-calibrated.yaml", "residuals.csv", "convergence.csv", "report.html", RESULT_FILE)
+_OURS = (
+    "robot-calibrated.yaml",
+    "residuals.csv",
+    "convergence.csv",
+    "pose-uncertainty.csv",
+    "report.html",
+    RESULT_FILE,
+)
 
 
 def write_result(result: Result, folder: Path, version: str) -> Path:
@@ -43,6 +50,7 @@ def write_result(result: Result, folder: Path, version: str) -> Path:
         "robot-calibrated.yaml": dump_robot(result.cell.arm, _robot_comment(result)),
         "residuals.csv": residuals_csv(result),
         "convergence.csv": convergence_csv(result),
+        "pose-uncertainty.csv": pose_uncertainty_csv(result),
         "report.html": render_page(result, version),
         RESULT_FILE: result_json(result, version),
     }

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
 from rich.console import Console, Group, RenderableType
 from rich.markup import escape
 from rich.padding import Padding
@@ -52,7 +53,7 @@ def _error_cells(residuals: Residuals) -> tuple[str, ...]:
 
 
 def _facts(result: Result) -> list[RenderableType]:
-    facts = [_seen(result), _searched(result)]
+    facts = [_seen(result), _known(result), _searched(result)]
     prior = [e.name for e in result.estimates if e.source == "prior"]
     if prior:
         facts.append(f"Mostly prior: {_some(prior)} moved little because the data say little about them.")
@@ -76,6 +77,15 @@ def _seen(result: Result) -> str:
     more = len(result.unseen) - _DIRECTIONS
     others = f" (and {more} more, in result.json)" if more > 0 else ""
     return f"Not seen: {result.free - result.rank} of {result.free} directions. {words}{others}."
+
+
+def _known(result: Result) -> str:
+    pose = result.in_workspace
+    position, orientation = np.median(pose.position_95), np.median(pose.orientation_95)
+    return (
+        f"Tool pose over the work space, 95 %: within {in_millimetres(float(position))} and "
+        f"{1e3 * float(orientation):.3g} mrad (median)."
+    )
 
 
 def _searched(result: Result) -> str:

@@ -32,6 +32,17 @@ def convergence_csv(result: Result) -> str:
     return _csv(["generation", "best_cost_mm2", "mean_cost_mm2"], rows)
 
 
+def pose_uncertainty_csv(result: Result) -> str:
+    """Returns `pose-uncertainty.csv`: how certain the calibrated tool's pose is over the work space."""
+    found = result.in_workspace
+    header = ["position_std_m", "position_95_m", "orientation_std_rad", "orientation_95_rad"]
+    columns = (found.position_std, found.position_95, found.orientation_std, found.orientation_95)
+    rows = (
+        [*map(_digits, joints), *map(_digits, sizes)] for joints, *sizes in zip(found.joints, *columns, strict=True)
+    )
+    return _csv([*result.cell.arm.joint_names, *header], rows)
+
+
 def _csv(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")

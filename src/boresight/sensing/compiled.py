@@ -13,7 +13,7 @@ from boresight.geometry import Plane
 from boresight.kernels.evolving import evolve_generations
 from boresight.kernels.programs import FIXED, SHIFT, TURN, Program, Rows, aligned, padded, workspace
 from boresight.kernels.sweeping import sweep
-from boresight.search import Box, DifferentialEvolution, Population, Staleness, Stops, Stretch
+from boresight.search import Box, DifferentialEvolution, Population, Staleness, Stops, Stretch, seed_population
 from boresight.sensing.cell import Cell
 from boresight.sensing.readings import Readings
 
@@ -111,6 +111,11 @@ class CompiledCost:
         costs = np.empty(lanes.shape[1])
         sweep(self._program, self._rows, self._work, lanes, costs)
         return costs[: len(members)]
+
+    def load(self, settings: DifferentialEvolution, box: Box) -> None:
+        """Compiles or loads what `advance` needs, so that a search is timed without it."""
+        population = seed_population(replace(settings, population=5), box, 0)
+        self.advance(settings, box, population, Staleness(), Stops(), 1)
 
     def advance(
         self,

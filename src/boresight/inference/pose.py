@@ -1,0 +1,157 @@
+"""How certain the tool's pose is, where no reading was taken: the posterior carried to any configuration.
+
+Terms as metrologists use them (JCGM 100, the GUM): a *standard uncertainty* is a standard deviation, an
+*expanded uncertainty* is twice that (coverage factor k = 2). Of a position, which has three components, the
+95 % figure is the radius of a ball that holds the true position with that probability.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from boresight.inference.words import listed
+from boresight.sensing import Cell
+
+COVERAGE = 2.0
+"""Coverage factor k of an expanded uncertainty."""
+
+STANDS_OUT = 10.0
+"""A direction this many times less certain than the best one stands out."""
+
+AXES = "xyz"
+
+_CHI_SQUARE_95 = 7.814727903251179
+"""The 95 % point of chi-square with three degrees of freedom."""
+
+
+@dataclass(frozen=True)
+class PoseUncertainty:
+    """Uncertainty of the tool's pose at some configurations.
+
+    Attributes:
+        joints: (rows, joints) the configurations [rad or m].
+        covariance: (rows, 6, 6) of the tool's displacement (position [m], then rotation [rad]), in the world's axes.
+    """
+
+    joints: Float[np.ndarray, "rows joints"]
+    covariance: Float[np.ndarray, "rows 6 6"]
+
+    @cached_property
+    def position_std(self) -> Float[np.ndarray, "rows"]:
+        """Standard uncertainty of the position error's length [m]: the root of the summed variances."""
+        return np.sqrt(np.trace(self.covariance[:, :3, :3], axis1=1, axis2=2))
+
+    @cached_property
+    def orientation_std(self) -> Float[np.ndarray, "rows"]:
+        """Standard uncertainty of the orientation error's angle [rad]."""
+        return np.sqrt(np.trace(self.covariance[:, 3:, 3:], axis1=1, axis2=2))
+
+    @cached_property
+    def position_95(self) -> Float[np.ndarray, "rows"]:
+        """Half the longest axis of each position's 95 % ellipsoid [m]."""
+        return _longest_95(self.covariance[:, :3, :3])
+
+    @cached_property
+    def orientation_95(self) -> Float[np.ndarray, "rows"]:
+        """Half the longest axis of each orientation's 95 % ellipsoid [rad]."""
+        return _longest_95(self.covariance[:, 3:, 3:])
+
+    def holds(self, displacement: Float[np.ndarray, "rows 3"]) -> np.ndarray:
+        """Returns whether each position error [m] lies inside its 95 % ellipsoid.
+
+        Directions that the covariance says are certain must be met exactly, to a nanometre.
+        """
+        floor = 1e-18 * np.eye(3)
+        solved = np.linalg.solve(self.covariance[:, :3, :3] + floor, displacement[:, :, None])[:, :, 0]
+        return np.einsum("ri,ri->r", displacement, solved) <= _CHI_SQUARE_95
+
+
+def pose_uncertainty(
+    cell: Cell,
+    names: tuple[str, ...],
+    covariance: Float[np.ndarray, "free free"],
+    joints: Float[np.ndarray, "rows joints"],
+) -> PoseUncertainty:
+    """Returns the uncertainty of the sensor frame's pose in the world.
+
+    A parameter's error moves the tool by its twist (v, w): the position by v + w × p, the orientation by w.
+    Errors of targets do not move the tool.
+
+    Args:
+        cell: the identified cell.
+        names: the free parameters.
+        covariance: their posterior covariance.
+        joints: configurations [rad or m].
+    """
+    motion = cell.chain.linearise(joints)
+    place = {name: column for column, name in enumerate(cell.chain.parameters)}
+    moving = [i for i, name in enumerate(names) if name in place]
+    twists = motion.twists[:, [place[names[i]] for i in moving]]
+    shifts = twists[:, :, :3] + np.cross(twists[:, :, 3:], motion.poses[:, None, :3, 3])
+    slopes = np.concatenate([shifts, twists[:, :, 3:]], axis=2)
+    part = covariance[np.ix_(moving, moving)]
+    return PoseUncertainty(joints, np.einsum("rpi,pq,rqj->rij", slopes, part, slopes, optimize=True))
+
+
+def uncalibrated_in_words(uncertainty: PoseUncertainty) -> str:
+    """Returns which directions of the tool's pose are far less certain than the others, as a sentence.
+
+    Meant for where some directions of the parameters are not seen at all: those that matter to the tool then
+    stand out by their uncertainty, which is the prior's.
+    """
+    variance = np.mean(np.diagonal(uncertainty.covariance, axis1=1, axis2=2), axis=0)
+    position, orientation = np.sqrt(variance[:3]), np.sqrt(variance[3:])
+    said = []
+    for std, verb, scale, unit in (
+        (position, "position along", 1e3, "mm"),
+        (orientation, "orientation about", 1e3, "mrad"),
+    ):
+        axes = np.flatnonzero(std > STANDS_OUT * np.min(std))
+        if len(axes):
+            worst = scale * float(np.max(std[axes]))
+            said.append(f"{verb} {listed([AXES[axis] for axis in axes])} (standard uncertainty {worst:.2g} {unit})")
+    if not said:
+        shift, turn = 1e3 * float(np.max(position)), 1e3 * float(np.max(orientation))
+        return (
+            "Some parameters stay at nominal because no reading sees them: the tool's pose is known to "
+            f"{shift:.2g} mm and {turn:.2g} mrad (standard uncertainty)."
+        )
+    return f"Not calibrated, since no reading sees it: the tool's {' and its '.join(said)}, in the world's axes."
+
+
+def spread_configurations(cell: Cell, rows: int) -> Float[np.ndarray, "rows joints"]:
+    """Returns configurations spread evenly within the joints' limits, the same ones every time (Halton 1960)."""
+    limits = np.array(cell.arm.limits)
+    turns = np.array([joint.type == "revolute" for joint in cell.arm.joints])
+    limits[turns] = np.clip(limits[turns], -np.pi, np.pi)
+    primes = _primes(len(limits))
+    unit = np.stack([_radical_inverse(np.arange(1, rows + 1), prime) for prime in primes], axis=1)
+    return limits[:, 0] + unit * (limits[:, 1] - limits[:, 0])
+
+
+def _longest_95(covariance: Float[np.ndarray, "rows 3 3"]) -> Float[np.ndarray, "rows"]:
+    return np.sqrt(np.maximum(np.linalg.eigvalsh(covariance)[:, -1], 0.0) * _CHI_SQUARE_95)
+
+
+def _primes(count: int) -> list[int]:
+    found: list[int] = []
+    candidate = 2
+    while len(found) < count:
+        if all(candidate % prime for prime in found):
+            found.append(candidate)
+        candidate += 1
+    return found
+
+
+def _radical_inverse(index: Int[np.ndarray, "rows"], base: int) -> Float[np.ndarray, "rows"]:
+    """Returns the digits of each index in a base, mirrored at the point."""
+    value, scale, rest = np.zeros(len(index)), 1.0, index.copy()
+    while np.any(rest > 0):
+        scale /= base
+        value += scale * (rest % base)
+        rest //= base
+    return value
