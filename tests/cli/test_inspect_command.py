@@ -20,7 +20,7 @@ def test_flat_plane_names_what_it_cannot_see_and_exits_with_0(capsys):
     words = " ".join(capsys.readouterr().out.split())
     assert words.startswith("SEES 21 of 24 flat-plane")
     assert "j1.theta, j1.a and j3.d do not change any reading" in words
-    assert "Mend: measure against one more plane" in words
+    assert "mend: measure against one more plane" in words
     assert "(4R + 2P + 6)" in words
 
 

@@ -7,7 +7,7 @@ import math
 from dataclasses import asdict
 from typing import Any
 
-from rich.console import Console, Group, RenderableType
+from rich.console import Console, RenderableType
 from rich.markup import escape
 from rich.padding import Padding
 from rich.table import Table
@@ -83,7 +83,7 @@ def print_inspection(console: Console, inspection: Inspection) -> None:
     free, rank = len(inspection.free), inspection.rank
     colour = "bold green" if rank == free and not inspection.hardly else "bold yellow"
     console.print(Text.assemble((f"SEES {rank} of {free}", colour), "  ", (inspection.name, "bold")))
-    console.print(_indented(Group(*_facts(inspection))))
+    console.print(_indented(_facts(inspection)))
     _print_directions(console, "Not seen", [(each.words, each.mend) for each in inspection.unseen])
     _print_directions(console, "Hardly seen", [(each.words, each.mend) for each in inspection.hardly])
     console.print(_predictions_table(inspection))
@@ -93,23 +93,20 @@ def print_inspection(console: Console, inspection: Inspection) -> None:
         console.print(f"Note: {escape(note)}", highlight=False)
 
 
-def _facts(inspection: Inspection) -> list[RenderableType]:
+def _facts(inspection: Inspection) -> Table:
     of, indices = inspection, inspection.observability
     where = "drawn within the joints' limits" if of.drawn else "of the campaign"
     against = f" against {', '.join(of.targets)}" if of.targets else ""
-    free = f"{len(of.free)} parameters are free; the readings see {of.rank} combinations of them"
-    return [
-        Text(f"{of.rows} configurations {where}{against}, {in_millimetres(of.noise_std)} noise a value."),
-        Text(f"{free} (condition number {of.condition:.3g})."),
-        Text(
-            f"Of the {of.everett} independent parameters of such an arm (4R + 2P + 6), base and sensor mount included, "
-            f"these configurations could see {of.arm_rank}."
-        ),
-        Text(
-            f"Observability: O1 {indices.o1:.3g}, O2 {indices.o2:.3g}, O3 {indices.o3:.3g}, O4 {indices.o4:.3g}, "
-            f"O5 {indices.o5:.3g}."
-        ),
-    ]
+    facts = Table.grid(padding=(0, 2))
+    facts.add_column(style="bold", no_wrap=True)
+    facts.add_row("configurations", f"{of.rows} {where}{escape(against)}; {in_millimetres(of.noise_std)} noise a value")
+    facts.add_row("free, rank", f"{len(of.free)}, {of.rank}; condition number {of.condition:.3g}")
+    facts.add_row("the whole arm", f"{of.arm_rank} of {of.everett} independent parameters (4R + 2P + 6) could be seen")
+    facts.add_row(
+        "observability",
+        f"O1 {indices.o1:.3g}, O2 {indices.o2:.3g}, O3 {indices.o3:.3g}, O4 {indices.o4:.3g}, O5 {indices.o5:.3g}",
+    )
+    return facts
 
 
 def _print_directions(console: Console, title: str, said: list[tuple[str, str]]) -> None:
@@ -118,9 +115,10 @@ def _print_directions(console: Console, title: str, said: list[tuple[str, str]])
     console.print(Text(f"{title}:", style="bold"))
     for words, mend in said[:_FEW]:
         sentence = words[0].upper() + words[1:] if words.split()[0].isalpha() else words
-        console.print(Padding(Text.assemble("- ", sentence, ". ", ("Mend: ", "green"), mend, "."), (0, 0, 0, 2)))
+        console.print(_indented(Text(f"{sentence}.")))
+        console.print(_indented(_indented(Text.assemble(("mend: ", "green"), mend, "."))))
     if len(said) > _FEW:
-        console.print(f"  - and {len(said) - _FEW} more; --json has all of them")
+        console.print(f"  and {len(said) - _FEW} more; --json has all of them")
 
 
 def _predictions_table(inspection: Inspection) -> Table:
