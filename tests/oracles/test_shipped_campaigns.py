@@ -1,0 +1,129 @@
+"""The shipped campaigns, measured in MuJoCo or on a real arm, against truths that Boresight never sees."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import boresight
+from boresight.calibration import SOLVERS
+from boresight.report.document import result_document
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+SIMULATED = {
+    # campaign: the tool's position error at validation configurations [mm RMS], before and at most after
+    "space-arm-one-plane": (7.40, 0.040),
+    "space-arm-three-planes": (14.2, 0.070),
+    "seven-axis": (13.6, 0.050),
+}
+
+
+@pytest.fixture(scope="module")
+def calibrated():
+    """Calibrates a shipped campaign, once for each solver."""
+    done = {}
+
+    def result(name, solver="evolution+least-squares"):
+        if (name, solver) not in done:
+            campaign = boresight.load_campaign(EXAMPLES / name / "campaign.yaml")
+            done[name, solver] = campaign, boresight.calibrate(campaign, boresight.Solver(solver))
+        return done[name, solver]
+
+    return result
+
+
+def position_error_mm(arm, campaign, name):
+    truth = np.array(json.loads((EXAMPLES / name / "truth.json").read_text())["validation_position"])
+    off = arm.forward_kinematics(campaign.validation.joints)[:, :3, 3] - truth
+    return 1e3 * float(np.sqrt(np.mean(np.sum(off**2, axis=1))))
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("name", SIMULATED)
+def test_position_at_held_out_configurations_is_as_good_as_promised(calibrated, name, solver):
+    campaign, result = calibrated(name, solver)
+    before, after = SIMULATED[name]
+    assert position_error_mm(campaign.cell.arm, campaign, name) == pytest.approx(before, rel=0.01)
+    assert position_error_mm(result.cell.arm, campaign, name) <= after
+    assert result.verdict.accepted
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_range_errors_fall_below_the_papers_0_2_mm(calibrated, solver):
+    _, result = calibrated("space-arm-one-plane", solver)
+    assert result.calibration.before.max > 30e-3
+    assert result.calibration.after.max <= 0.2e-3
+
+
+@pytest.mark.parametrize("name", SIMULATED)
+def test_the_residuals_are_no_more_than_the_rangers_noise(calibrated, name):
+    _, result = calibrated(name)
+    assert result.calibration.after.rms < 1.1 * result.stated_std
+    assert result.model_std == 0.0
+    assert result.outliers == ()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("solver", ["least-squares", "evolution+least-squares"])
+def test_a_real_arm_and_tracker_with_unknown_frames_reach_half_a_millimetre(calibrated, solver):
+    _, result = calibrated("ur10-laser-tracker", solver)
+    assert 0.75e-3 < result.validation.before.rms < 1.0e-3
+    assert result.validation.after.rms <= 0.51e-3
+    assert result.validation.count == 800
+    assert result.verdict.accepted
+    assert any("moves in ways this model does not have" in reason for reason in result.verdict.reasons)
+
+
+def test_a_level_plane_is_said_to_hide_three_parameters(calibrated):
+    _, result = calibrated("flat-plane")
+    assert (result.free, result.rank) == (24, 21)
+    hidden = {name for unseen in result.unseen for name in unseen.parameters}
+    assert {"j1.theta", "j1.a"} <= hidden
+
+
+@pytest.mark.parametrize("name", SIMULATED)
+def test_the_written_robot_loads_again_to_the_identified_kinematics(calibrated, tmp_path, name):
+    campaign, result = calibrated(name)
+    folder = boresight.write_result(result, tmp_path / "result", boresight.__version__)
+    again = boresight.load_robot(folder / "robot-calibrated.yaml")
+    joints = campaign.validation.joints
+    off = again.forward_kinematics(joints) - result.cell.arm.forward_kinematics(joints)
+    assert np.abs(off).max() <= 1e-12
+
+
+def test_the_same_seed_gives_the_same_answer(calibrated):
+    def told(result):
+        document = result_document(result, "0")
+        document["search"] = {key: document["search"][key] for key in ("solver", "generations")}
+        return document
+
+    campaign, first = calibrated("space-arm-one-plane", "evolution")
+    again = boresight.calibrate(campaign, boresight.Solver("evolution"))
+    assert told(first) == told(again)
+
+
+def test_result_json_holds_what_programs_rely_on(calibrated, tmp_path):
+    _, result = calibrated("space-arm-one-plane")
+    folder = boresight.write_result(result, tmp_path / "result", boresight.__version__)
+    document = json.loads((folder / "result.json").read_text())
+    assert document["schema"] == "boresight-result/1"
+    assert set(document["verdict"]) == {"accepted", "reasons"}
+    for parameter in document["parameters"]:
+        assert set(parameter) >= {"name", "unit", "nominal", "identified", "correction", "std", "source"}
+        assert parameter["source"] in ("data", "prior", "fixed")
+    assert set(document["identifiability"]) >= {"free", "rank", "unseen"}
+    for rows in ("calibration", "validation"):
+        residuals = document["residuals"][rows]
+        assert residuals["unit"] == "m"
+        assert residuals["count"] in (60, 100)
+        for when in ("before", "after"):
+            assert set(residuals[when]) == {"rms", "max"}
+    assert document["outliers"] == []
+    assert isinstance(document["search"], dict)
+    assert document["version"] == boresight.__version__
+    assert document["seed"] == 0
+    names = {"campaign.yaml", "robot.yaml", "observations.csv", "validation.csv"}
+    assert set(document["inputs"]) == names
+    assert all(len(digest) == 64 for digest in document["inputs"].values())
