@@ -63,7 +63,7 @@ PINNED = [
         ("observations: observations.csv", "observations: observations.csv\nfixed: [j3.theta]"),
         [
             "campaign.yaml, line 6: fixed[0]: 'j3.theta' is no parameter (did you mean j2.theta?); "
-            "expected names such as j1.theta, j1.d, j1.a or *.theta, of base, j1, j2, mount, deck"
+            "expected names such as j1.theta, j1.d, j1.a or *.theta, of base, j1, j2, mount, deck, sensor"
         ],
     ),
     (

@@ -213,8 +213,8 @@ def test_a_pattern_that_means_nothing_names_the_nearest_one(folder, campaign_wit
     problem = folder.write(campaign=campaign_with(("*.theta", "*.tehta"))).problem()
     assert problem == (
         "campaign.yaml, line 7: estimate[0].parameters[0]: '*.tehta' is no parameter (did you mean *.theta?); "
-        "expected names such as j1.theta, j1.d, j1.a or *.theta, of base, j1, j2, mount, deck; "
-        "* does not reach base and mount, name these in full"
+        "expected names such as j1.theta, j1.d, j1.a or *.theta, of base, j1, j2, mount, deck, sensor; "
+        "* does not reach base, mount, sensor, name these in full"
     )
 
 

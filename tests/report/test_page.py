@@ -149,7 +149,7 @@ def test_result_without_any_finite_error_is_still_a_page(result):
 
 def test_search_without_evolution_has_no_convergence_chart(result):
     stage = Stage("least squares from the nominal model", 40.0, 6e-5, 0.01, 7, "no step improves the fit any further")
-    solution = Solution(result.solution.x, 40.0, (stage,), np.empty((0, 2)), stage, True)
+    solution = Solution(result.solution.fit, (stage,), np.empty((0, 2)), stage, True)
     page = page_of(replace(result, solution=solution, solver=Solver(name="least-squares")))
     assert "was the whole search" in page.words
     assert "generation" not in page.words.lower()

@@ -87,7 +87,7 @@ def test_parameters_have_names_quantities_and_values():
     names = [parameter.name for parameter in cell.parameters]
     assert names[:6] == ["base.x", "base.y", "base.z", "base.yaw", "base.pitch", "base.roll"]
     assert names[6:11] == ["j1.theta", "j1.d", "j1.a", "j1.alpha", "j1.beta"]
-    assert names[-3:] == ["deck.normal_x", "deck.normal_z", "deck.offset"]
+    assert names[-5:] == ["deck.normal_x", "deck.normal_z", "deck.offset", "sensor.bias", "sensor.scale"]
     quantity = {parameter.name: parameter.quantity for parameter in cell.parameters}
     assert quantity["base.x"] == quantity["j1.d"] == quantity["deck.offset"] == "length"
     assert quantity["base.yaw"] == quantity["j1.beta"] == "angle"

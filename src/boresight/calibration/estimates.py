@@ -12,7 +12,7 @@ from boresight.calibration.result import Estimate
 from boresight.geometry import Frame
 from boresight.inference import sources
 from boresight.sensing import Cell
-from boresight.sensing.cell import FRAME_NUMBERS
+from boresight.sensing.cell import FRAME_NUMBERS, SENSOR
 from boresight.units import UNIT_OF
 
 _TURNS = FRAME_NUMBERS[3:]
@@ -44,7 +44,7 @@ def estimates_of(
     listed = []
     for parameter in problem.cell.parameters:
         owner = parameter.name.split(".")[0]
-        if owner in ("base", "mount") and parameter.name not in std:
+        if owner in ("base", "mount", SENSOR) and parameter.name not in std:
             continue
         found, given = identified.values[parameter.name], believed.values[parameter.name]
         estimate = Estimate(

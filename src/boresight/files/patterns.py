@@ -11,7 +11,7 @@ from boresight.errors import did_you_mean
 from boresight.files.problems import listed, shown
 from boresight.sensing import Cell
 
-FRAMES = ("base", "mount")
+FRAMES = ("base", "mount", "sensor")
 """Owners that a wildcard does not reach: freeing them is a decision of its own."""
 
 _AXES = "xyz"
@@ -73,7 +73,7 @@ class Matcher:
         wildcards = dict.fromkeys(f"*.{name.partition('.')[2]}" for name in self._shared)
         near = did_you_mean(pattern[:60], (*self.names, *wildcards) if "*" not in pattern else wildcards)
         owners = dict.fromkeys(name.partition(".")[0] for name in self.names)
-        reach = f"; * does not reach {' and '.join(FRAMES)}, name these in full" if "*" in pattern else ""
+        reach = f"; * does not reach {listed(FRAMES)}, name these in full" if "*" in pattern else ""
         examples = listed(list(self._shared)[:3])
         return (
             f"{shown(pattern)} is no parameter{near}; "

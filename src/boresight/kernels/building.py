@@ -123,3 +123,18 @@ def build_planes(program, members, start, links, planes):
                 -1.0 if program.plane[plane, dropped] < 0.0 else 1.0,
             )
         _into_base(base, out)
+
+
+@compiled
+def build_sensor(program, members, start, sensor):
+    """Writes the sensor's bias [m] and gain for one tile."""
+    for number in range(2):
+        lanes = sensor[number * LANES : (number + 1) * LANES]
+        nominal = program.sensor_value[number] + (1.0 if number == 1 else 0.0)
+        parameter = program.sensor_parameter[number]
+        for i in range(LANES):
+            lanes[i] = nominal
+        if parameter != FIXED:
+            correction = members[parameter, start : start + LANES]
+            for i in range(LANES):
+                lanes[i] += correction[i]

@@ -36,8 +36,8 @@ def moved_offset(nx, ny, nz, f, tx, ty, tz):
 
 
 @compiled
-def range_residual(nz, f, reading):
+def range_residual(nz, f, bias, gain, reading):
     """Returns predicted minus measured range [m], `MISSED` where the beam looks away from its plane."""
     hits = f * nz < 0.0
     safe = nz if hits else 1.0
-    return -f / safe - reading if hits else MISSED
+    return bias - gain * f / safe - reading if hits else MISSED

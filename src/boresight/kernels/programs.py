@@ -54,6 +54,8 @@ class Program(NamedTuple):
         plane: (planes, 4) nominal unit normal and offset [m] in the world.
         plane_parameter: (planes, 4) rows of the corrections of n_x, n_y, n_z and the offset, or `FIXED`.
         plane_dropped: (planes,) the component of the normal that follows from the other two.
+        sensor_value: (2,) nominal bias [m] and relative scale error of the sensor.
+        sensor_parameter: (2,) rows of their corrections, or `FIXED`.
         prior_weight: (parameters,) weight of each squared correction in the cost.
         loss: squared residual [m²] beyond which the cost grows with the residual rather than with its square
             (pseudo-Huber), or 0 for plain squares.
@@ -68,6 +70,8 @@ class Program(NamedTuple):
     plane: np.ndarray
     plane_parameter: np.ndarray
     plane_dropped: np.ndarray
+    sensor_value: np.ndarray
+    sensor_parameter: np.ndarray
     prior_weight: np.ndarray
     loss: float
 
@@ -100,6 +104,7 @@ class Workspace(NamedTuple):
         planes: (planes * 4 * LANES,) planes of a tile, as seen from the first joint's axis.
         state: (4 * LANES,) the carried plane (n_x, n_y, n_z, f) of a tile.
         costs: (LANES,) cost of a tile.
+        sensor: (2 * LANES,) bias [m] and gain of a tile's sensors.
         scratch: (3 * LANES,) amounts of a motion, their sines and cosines.
     """
 
@@ -107,6 +112,7 @@ class Workspace(NamedTuple):
     planes: np.ndarray
     state: np.ndarray
     costs: np.ndarray
+    sensor: np.ndarray
     scratch: np.ndarray
 
 
@@ -126,6 +132,7 @@ def workspace(program: Program) -> Workspace:
         planes=aligned(max(len(program.plane), 1) * 4 * LANES),
         state=aligned(4 * LANES),
         costs=aligned(LANES),
+        sensor=aligned(2 * LANES),
         scratch=aligned(3 * LANES),
     )
 

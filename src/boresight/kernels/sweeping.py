@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from boresight.kernels.building import build_links, build_planes
+from boresight.kernels.building import build_links, build_planes, build_sensor
 from boresight.kernels.carrying import along, moved_offset, range_residual, turned
 from boresight.kernels.compiling import compiled
 from boresight.kernels.programs import LANES, RANGE
@@ -27,7 +27,7 @@ _XX, _XY, _XZ, _YX, _YY, _YZ, _ZX, _ZY, _ZZ, _TX, _TY, _TZ = (np.uint64(k * LANE
 
 
 @compiled
-def _sweep_tile(program, rows, planes, links, state, costs):
+def _sweep_tile(program, rows, planes, links, sensor, state, costs):
     """Adds every reading's cost to the members of one tile."""
     loss = program.loss
     joints = program.prismatic.shape[0]
@@ -60,7 +60,7 @@ def _sweep_tile(program, rows, planes, links, state, costs):
             z, k = state[_Z + i], link + i
             f = moved_offset(x, y, z, state[_F + i], links[k + _TX], links[k + _TY], links[k + _TZ])
             nz = along(x, y, z, links[k + _ZX], links[k + _ZY], links[k + _ZZ])
-            residual = range_residual(nz, f, reading) if is_range else f - reading
+            residual = range_residual(nz, f, sensor[i], sensor[_LANES + i], reading) if is_range else f - reading
             squares = weight * residual * residual
             costs[i] += squares if loss == 0.0 else 2.0 * loss * (np.sqrt(1.0 + squares / loss) - 1.0)
 
@@ -80,6 +80,7 @@ def sweep(program, rows, work, members, costs):
     for start in range(0, members.shape[1], LANES):
         build_links(program, members, start, work.links, work.scratch)
         build_planes(program, members, start, work.links, work.planes)
+        build_sensor(program, members, start, work.sensor)
         tile = costs[start : start + LANES]
         for i in range(LANES):
             work.costs[i] = 0.0
@@ -88,6 +89,6 @@ def sweep(program, rows, work, members, costs):
             correction = members[parameter, start : start + LANES]
             for i in range(LANES):
                 work.costs[i] += weight * correction[i] * correction[i]
-        _sweep_tile(program, rows, work.planes, work.links, work.state, work.costs)
+        _sweep_tile(program, rows, work.planes, work.links, work.sensor, work.state, work.costs)
         for i in range(LANES):
             tile[i] = work.costs[i]

@@ -19,6 +19,9 @@ FRAME_NUMBERS = ("x", "y", "z", "roll", "pitch", "yaw")
 
 AXES = "xyz"
 
+SENSOR = "sensor"
+"""Owner of the sensor's own numbers: `sensor.bias`, `sensor.scale`."""
+
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
@@ -58,9 +61,11 @@ class Cell:
 
     @cached_property
     def parameters(self) -> tuple[Parameter, ...]:
-        """Every number that may be wrong: the chain's from the world outwards, then the targets'."""
+        """Every number that may be wrong: the chain's from the world outwards, the targets', the sensor's own."""
         moving = (Parameter(m.parameter, m.quantity) for m in self.chain.motions if m.parameter is not None)
-        return (*moving, *(p for name, plane in self.targets.items() for p in _plane_parameters(name, plane)))
+        planes = (p for name, plane in self.targets.items() for p in _plane_parameters(name, plane))
+        own = (Parameter(f"{SENSOR}.{name}", quantity) for name, quantity in self.sensor.numbers.items())
+        return (*moving, *planes, *own)
 
     @cached_property
     def index(self) -> dict[str, int]:
@@ -75,6 +80,7 @@ class Cell:
         for name, plane in self.targets.items():
             numbers |= {f"{name}.normal_{axis}": n for axis, n in zip(AXES, plane.normal, strict=True)}
             numbers[f"{name}.offset"] = plane.offset
+        numbers |= {f"{SENSOR}.{name}": getattr(self.sensor, name) for name in self.sensor.numbers}
         return numbers
 
     def poses(
@@ -96,10 +102,10 @@ class Cell:
             target: for each row the index of its target, in the order of `targets`.
             corrections: added to the nominal values, in the order of `parameters`; none by default.
         """
-        poses = self.poses(joints, corrections)
+        poses, sensor = self.poses(joints, corrections), self._adjusted_sensor(corrections)
         values = np.empty((len(joints), len(self.sensor.channels)))
         for rows, plane, _ in self._by_target(target, corrections):
-            values[rows] = self.sensor.predict(poses[rows], plane)
+            values[rows] = sensor.predict(poses[rows], plane)
         return values
 
     def linearise(
@@ -110,13 +116,15 @@ class Cell:
     ) -> tuple[Float[np.ndarray, "rows channels"], Float[np.ndarray, "rows channels parameters"]]:
         """Returns what the sensor would read and its exact derivative by every parameter; see `predict`."""
         motion = self.chain.linearise(joints, self._chain_part(corrections))
-        channels, moving = len(self.sensor.channels), len(self.chain.parameters)
+        sensor = self._adjusted_sensor(corrections)
+        channels, moving, own = len(sensor.channels), len(self.chain.parameters), len(sensor.numbers)
         values = np.empty((len(joints), channels))
         jacobian = np.zeros((len(joints), channels, len(self.parameters)))
         for rows, plane, columns in self._by_target(target, corrections):
-            response = self.sensor.respond(motion.poses[rows], plane)
+            response = sensor.respond(motion.poses[rows], plane)
             values[rows] = response.values
             jacobian[rows, :, :moving] = response.by_twist @ np.swapaxes(motion.twists[rows], 1, 2)
+            jacobian[rows, :, jacobian.shape[2] - own :] = response.by_sensor
             if plane is not None:
                 jacobian[rows, :, columns] = response.by_plane @ plane.derivative
         return values, jacobian
@@ -130,8 +138,16 @@ class Cell:
             arm=self.arm.corrected(corrections),
             base=_moved_frame("base", self.base, corrections),
             mount=_moved_frame("mount", self.mount, corrections),
+            sensor=self.sensor.adjusted({n: corrections.get(f"{SENSOR}.{n}", 0.0) for n in self.sensor.numbers}),
             targets={name: _moved_plane(name, plane, corrections) for name, plane in self.targets.items()},
         )
+
+    def _adjusted_sensor(self, corrections: Float[np.ndarray, "parameters"] | None) -> Sensor:
+        numbers = self.sensor.numbers
+        if corrections is None or not numbers:
+            return self.sensor
+        own = corrections[len(corrections) - len(numbers) :]
+        return self.sensor.adjusted({name: float(value) for name, value in zip(numbers, own, strict=True)})
 
     def _chain_part(self, corrections):
         return None if corrections is None else corrections[: len(self.chain.parameters)]

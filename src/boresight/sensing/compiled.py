@@ -14,8 +14,10 @@ from boresight.kernels.evolving import evolve_generations
 from boresight.kernels.programs import FIXED, SHIFT, TURN, Program, Rows, aligned, padded, workspace
 from boresight.kernels.sweeping import sweep
 from boresight.search import Box, DifferentialEvolution, Population, Staleness, Stops, Stretch, seed_population
-from boresight.sensing.cell import Cell
+from boresight.sensing.cell import SENSOR, Cell
 from boresight.sensing.readings import Readings
+
+_SENSOR_NUMBERS = ("bias", "scale")
 
 
 def compile_program(
@@ -44,6 +46,8 @@ def compile_program(
         plane=np.array([[*plane.normal, plane.offset] for _, plane in planes]),
         plane_parameter=np.array([_plane_rows(name, plane, place) for name, plane in planes], dtype=np.int64),
         plane_dropped=np.array([plane.dropped for _, plane in planes], dtype=np.int64),
+        sensor_value=np.array([getattr(cell.sensor, name, 0.0) for name in _SENSOR_NUMBERS]),
+        sensor_parameter=np.array([place.get(f"{SENSOR}.{name}", FIXED) for name in _SENSOR_NUMBERS], dtype=np.int64),
         prior_weight=np.ascontiguousarray(prior_weight, dtype=float),
         loss=float(loss),
     )

@@ -7,6 +7,7 @@ runs in the compiled search.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Protocol, runtime_checkable
 
@@ -14,6 +15,7 @@ import numpy as np
 from jaxtyping import Float
 
 from boresight.geometry import Plane
+from boresight.units import Quantity
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,11 +26,13 @@ class Response:
         values: (rows, channels) predicted readings; NaN where the sensor cannot see the target.
         by_twist: (rows, channels, 6) derivative by the tool's twist (v, w) about the world's origin.
         by_plane: (rows, channels, 4) derivative by the target plane's (n_x, n_y, n_z, f); zeros without one.
+        by_sensor: (rows, channels, numbers) derivative by the sensor's own numbers.
     """
 
     values: Float[np.ndarray, "rows channels"]
     by_twist: Float[np.ndarray, "rows channels 6"]
     by_plane: Float[np.ndarray, "rows channels 4"]
+    by_sensor: Float[np.ndarray, "rows channels numbers"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,12 +57,14 @@ class Sensor(Protocol):
         channels: names of the values it reports, as columns of an observations file.
         needs_target: whether it must point at a named target.
         readouts: the compiled form of each channel.
+        numbers: the sensor's own numbers that may be wrong, as parameters `sensor.<name>`, with their quantities.
     """
 
     type: ClassVar[str]
     channels: ClassVar[tuple[str, ...]]
     needs_target: ClassVar[bool]
     readouts: ClassVar[tuple[Readout, ...]]
+    numbers: ClassVar[Mapping[str, Quantity]]
 
     @property
     def noise_std(self) -> float:
@@ -68,6 +74,10 @@ class Sensor(Protocol):
     @property
     def repeats(self) -> int:
         """Readings averaged in a row, unless the row says otherwise."""
+        ...
+
+    def adjusted(self, corrections: Mapping[str, float]) -> Sensor:
+        """Returns the sensor with corrections added to its own numbers, by name."""
         ...
 
     def predict(self, poses: Float[np.ndarray, "rows 4 4"], target: Plane | None) -> Float[np.ndarray, "rows channels"]:
