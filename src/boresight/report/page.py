@@ -8,7 +8,11 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from boresight.calibration.result import Estimate, Residuals, Result
+from boresight.inference import PoseUncertainty
+from boresight.inference.pose import COVERAGE
 from boresight.report.charts import convergence_chart, correction_charts, errors_chart
 from boresight.units import in_millimetres
 
@@ -71,11 +75,50 @@ def render_page(result: Result, version: str) -> str:
             groups=tuple(groups(result.estimates)),
             held=tuple(estimate for estimate in result.estimates if estimate.source == "prior"),
             fixed=tuple(estimate for estimate in result.estimates if estimate.source == "fixed"),
+            poses=(pose("these rows", result.at_rows), pose("work space", result.in_workspace)),
             channels=channels,
             noise=result.stated_std * math.sqrt(channels),
             evolved=bool(len(result.solution.history)),
             most=MOST_LISTED,
         )
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class PoseFigures:
+    """Uncertainty of the tool's pose over some configurations, as the page shows it.
+
+    Attributes:
+        where: which configurations.
+        count: how many.
+        standard, expanded: of the position [m], root mean square over them, k = 1 and k = 2.
+        median, worst: radius [m] that holds the true position with 95 % probability.
+        turn_median, turn_worst: the same of the orientation [rad].
+    """
+
+    where: str
+    count: int
+    standard: float
+    expanded: float
+    median: float
+    worst: float
+    turn_median: float
+    turn_worst: float
+
+
+def pose(where: str, found: PoseUncertainty) -> PoseFigures:
+    """Returns the figures of some configurations."""
+    standard = float(np.sqrt(np.mean(found.position_std**2)))
+    radius, angle = found.position_95, found.orientation_95
+    return PoseFigures(
+        where,
+        len(found.joints),
+        standard,
+        COVERAGE * standard,
+        float(np.median(radius)),
+        float(np.max(radius)),
+        float(np.median(angle)),
+        float(np.max(angle)),
     )
 
 
