@@ -6,10 +6,17 @@ import pytest
 from example_files import content
 
 QUICK = ("--solver", "least-squares")
-FILES = {"convergence.csv", "report.html", "residuals.csv", "result.json", "robot-calibrated.yaml"}
+FILES = {
+    "convergence.csv",
+    "pose-uncertainty.csv",
+    "report.html",
+    "residuals.csv",
+    "result.json",
+    "robot-calibrated.yaml",
+}
 
 
-def test_an_accepted_calibration_exits_with_0_and_writes_five_files(boresight, one_plane, tmp_path):
+def test_an_accepted_calibration_exits_with_0_and_writes_its_files(boresight, one_plane, tmp_path):
     said = boresight("calibrate", one_plane.campaign)
     assert said.code == 0
     assert said.out.startswith("ACCEPTED  mine\n")
