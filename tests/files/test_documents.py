@@ -160,11 +160,11 @@ def test_a_byte_order_mark_is_no_part_of_the_first_key(read):
     assert read(b"\xef\xbb\xbfa: 1\n").data == {"a": 1}
 
 
-def test_a_file_over_10_mib_is_refused_before_it_is_read(tmp_path):
+def test_a_file_over_1_mib_is_refused_before_it_is_read(tmp_path):
     path = tmp_path / "big.yaml"
     path.touch()
     os.truncate(path, 11 * 2**20)
-    with pytest.raises(InputError, match="the file has 11 MiB; expected a YAML file of at most 10 MiB"):
+    with pytest.raises(InputError, match="the file has 11 MiB; expected a YAML file of at most 1 MiB"):
         read_document(path, "big.yaml")
 
 

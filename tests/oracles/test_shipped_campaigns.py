@@ -119,7 +119,7 @@ def test_result_json_holds_what_programs_rely_on(calibrated, tmp_path):
         assert residuals["unit"] == "m"
         assert residuals["count"] in (60, 100)
         for when in ("before", "after"):
-            assert set(residuals[when]) == {"rms", "max"}
+            assert set(residuals[when]) == {"rms", "mean", "max"}
     assert document["outliers"] == []
     assert isinstance(document["search"], dict)
     assert document["version"] == boresight.__version__

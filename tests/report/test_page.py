@@ -21,7 +21,7 @@ from boresight.synthetic import draw_configurations, perturbed, simulated_readin
 
 HOSTILE = "<script>alert(1)</script>"
 NAN = float("nan")
-NOWHERE = Residuals("5-fold cross-validation", 0, 40, ErrorSummary(NAN, NAN), ErrorSummary(NAN, NAN))
+NOWHERE = Residuals("5-fold cross-validation", 0, 40, ErrorSummary(NAN, NAN, NAN), ErrorSummary(NAN, NAN, NAN))
 VOID = {"meta", "br", "path", "circle"}
 
 

@@ -13,7 +13,7 @@ from boresight.calibration.left_out import left_out, left_out_in_words
 from boresight.calibration.outliers import find_outliers
 from boresight.calibration.problem import Problem
 from boresight.calibration.result import Residuals, Result, Unseen
-from boresight.calibration.robust import Fit
+from boresight.calibration.robust import Fit, check_noise
 from boresight.calibration.solve import Progress, Solver, solve
 from boresight.calibration.verdict import judge
 from boresight.errors import InputError
@@ -83,6 +83,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         errors={"before": problem.errors(np.zeros(len(x))), "after": problem.errors(x)},
         stated_std=float(np.median(readings.std)),
         model_std=problem.model_std,
+        noise=check_noise(solution.fit),
         solution=solution,
         solver=solver,
         covariance=covariance,
@@ -113,7 +114,7 @@ def _warnings(fit: Fit) -> tuple[str, ...]:
     said = []
     if values < free:
         said.append(
-            f"{values} readings for {free} free parameters: the rest is held by the priors. "
+            f"{values} reading{'s' if values != 1 else ''} for {free} free parameters: priors hold the rest. "
             "Take more readings, or free fewer parameters."
         )
     left_out = int(np.count_nonzero(~fit.kept))

@@ -77,4 +77,6 @@ def summarise(method: str, before: Float[np.ndarray, "rows"], after: Float[np.nd
 
 
 def _size(errors: Float[np.ndarray, "rows"]) -> ErrorSummary:
-    return ErrorSummary(rms(errors), float(np.max(errors, initial=0.0)) if len(errors) else float("nan"))
+    if not len(errors):
+        return ErrorSummary(float("nan"), float("nan"), float("nan"))
+    return ErrorSummary(rms(errors), float(np.mean(errors)), float(np.max(errors)))

@@ -17,6 +17,10 @@ from boresight.sensing.compiled import CompiledCost, compile_program, compile_ro
 MISSED_M = 10.0
 """Residual [m] of a beam that looks away from its plane, and of zero slope: worse than any hit, finite."""
 
+LARGEST_SCALE = 0.1
+"""Largest size [m or rad] that a correction is measured in, however wide its bounds: beyond it, one parameter's
+scale would drown the others in the rank."""
+
 ROBUST_WITHIN = 3.0
 """Standard deviations within which evolution's robust cost is quadratic; beyond, a residual counts by its size."""
 
@@ -77,7 +81,7 @@ class Problem:
     @cached_property
     def scale(self) -> Float[np.ndarray, "parameters"]:
         """A typical size of each correction, so that metres and radians compare."""
-        return np.minimum(np.minimum(self.prior_std, self.half_width), self._evolved_half_width)
+        return np.minimum(np.minimum(self.prior_std, self.half_width), LARGEST_SCALE)
 
     @cached_property
     def box(self) -> Box:

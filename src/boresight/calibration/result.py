@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -9,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from boresight.calibration.campaign import SetAside
+from boresight.calibration.robust import NoiseCheck
 from boresight.calibration.solve import Solution, Solver
 from boresight.inference import PoseUncertainty
 from boresight.sensing import Cell, Readings
@@ -43,10 +45,13 @@ class ErrorSummary:
 
     Attributes:
         rms: root mean square.
+        mean: mean; of positions the mean over poses of the pose accuracy AP_P of ISO 9283, the distance between
+            the commanded and the attained position, each pose visited once.
         max: largest.
     """
 
     rms: float
+    mean: float
     max: float
 
 
@@ -82,6 +87,13 @@ class Outlier:
     line: int
     residual_m: float
     ratio: float
+
+    @property
+    def reason(self) -> str:
+        """Why the row was left out, in words."""
+        if not math.isfinite(self.ratio):
+            return "its beam, as predicted, looks away from its plane"
+        return f"{self.ratio:.3g} standard deviations from what the other rows predict"
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,6 +142,7 @@ class Result:
         errors: (rows, channels) predicted minus measured [m], before and after.
         stated_std: median stated standard deviation of a row's value [m].
         model_std: standard deviation [m] of what the model leaves unexplained.
+        noise: the residuals against the stated noise.
         solution: how the search went.
         solver: how it was set.
         covariance: (free, free) posterior covariance of the corrections.
@@ -157,6 +170,7 @@ class Result:
     errors: Mapping[str, Float[np.ndarray, "rows channels"]]
     stated_std: float
     model_std: float
+    noise: NoiseCheck
     solution: Solution
     solver: Solver
     covariance: Float[np.ndarray, "free free"]

@@ -1,15 +1,16 @@
 """Least squares that gross errors do not pull: rows that do not fit with the others lose their say.
 
-First every row's weight falls with its residual (pseudo-Huber, iteratively reweighted), then rows beyond what
-chance allows are left out altogether and may come back, until the same rows stay (Huber & Ronchetti 2009;
-Maronna et al. 2019). On clean normal data one row in a million is left out, so nothing is lost by it. Beside
-the rows, the standard deviation that the model itself leaves unexplained is found (`inference.model_std`).
+Where plain least squares leaves more than chance allows, every row's weight falls with its residual
+(pseudo-Huber, iteratively reweighted), then rows beyond what chance allows are left out altogether and may come
+back, until the same rows stay (Huber & Ronchetti 2009; Maronna et al. 2019). On clean normal data one row in a
+million is left out, so nothing is lost by it. Beside the rows, the standard deviation that the model itself
+leaves unexplained is found (`inference.model_std`).
 """
 
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -29,6 +30,9 @@ ROUGH, THOROUGH = 10, 200
 """Evaluations a round while weights are still coming, and once they have. Readings that are stated far better
 than the arm can be modelled drag parameters they hardly see to the ends of their bounds: 1,350 evaluations for
 400 real positions if every round is followed to its end, 60 so."""
+
+TRUSTING = 50
+"""Evaluations of plain least squares, every row believed; clean campaigns take 13 to 33."""
 
 _SETTLED = 0.01
 _SOFT = 2.0
@@ -60,16 +64,73 @@ class Fit:
         return self.problem.row_weight > 0.0
 
 
+@dataclass(frozen=True, slots=True)
+class NoiseCheck:
+    """The residuals that were used against the noise the campaign states.
+
+    Attributes:
+        chi_square: sum of squared residuals over their stated variances.
+        freedom: what it should be about: values less the number of parameters that they decide.
+    """
+
+    chi_square: float
+    freedom: float
+
+    @property
+    def ratio(self) -> float:
+        """Size of the residuals over that of the stated noise."""
+        return float(np.sqrt(self.chi_square / self.freedom))
+
+    @property
+    def deviation(self) -> float:
+        """How far chi-square is from what it should be, in its standard deviations."""
+        return float((self.chi_square - self.freedom) / np.sqrt(2.0 * self.freedom))
+
+
+def check_noise(fitted: Fit) -> NoiseCheck:
+    """Returns the chi-square test of a fit's residuals against the stated noise."""
+    problem, kept = fitted.problem, fitted.kept
+    scaled = (problem.errors(fitted.x) / problem.readings.std)[kept]
+    seen = np.isfinite(scaled)
+    decided = float(np.sum(problem.leverage(fitted.x)[kept][seen]))
+    return NoiseCheck(float(np.sum(scaled[seen] ** 2)), max(float(np.count_nonzero(seen)) - decided, 1.0))
+
+
 def fit(problem: Problem, start: Float[np.ndarray, "parameters"], *, move: bool = True) -> Fit:
     """Returns the robust least-squares optimum reached from a start.
+
+    Rows are trusted first: plain least squares comes before any weighing. Where that leaves nothing to explain, it
+    is the answer; else weights that fall from the start on are tried too, and the lower trimmed cost wins. Weighing
+    first was tried alone: at the nominal model residuals are the arm's errors and not the rows', and of 200 clean
+    campaigns of 35 rows and 25 parameters it ended in a wrong optimum in 15.
 
     Args:
         problem: what to fit; its weights and model_std are starting values.
         start: where to begin.
         move: whether to move from there at all, or only to weigh rows and find what is left unexplained.
     """
-    began, evaluations = time.perf_counter(), 0
-    search = LeastSquares.at(start, 0.0)
+    if not move:
+        return _settled(problem, LeastSquares.at(start, 0.0), move=False)
+    trusting = _settled(problem, refine(problem, start, TRUSTING), move=True)
+    if trusting.kept.all() and trusting.problem.model_std == 0.0:
+        return trusting
+    wary = _settled(problem, LeastSquares.at(start, 0.0), move=True)
+    best = lower(trusting, wary)
+    seconds = trusting.search.seconds + wary.search.seconds
+    evaluations = trusting.search.evaluations + wary.search.evaluations
+    return replace(best, search=replace(best.search, seconds=seconds, evaluations=evaluations))
+
+
+def lower(first: Fit, second: Fit) -> Fit:
+    """Returns the fit of lower trimmed cost, the first if they are level, both judged by the smaller model_std."""
+    judge = min((first, second), key=lambda each: each.problem.model_std).problem
+    return second if trimmed_cost(judge, second.x) < trimmed_cost(judge, first.x) else first
+
+
+def _settled(problem: Problem, search: LeastSquares, *, move: bool) -> Fit:
+    """Returns the fit once the same rows stay, from a search that may have begun."""
+    began, before = time.perf_counter(), search.seconds
+    evaluations = 0 if search.seconds == 0.0 else search.evaluations
     ratio = np.zeros(len(problem.readings))
     for round_ in range(ROUNDS):
         soft = move and round_ < SOFT_ROUNDS
@@ -83,7 +144,8 @@ def fit(problem: Problem, start: Float[np.ndarray, "parameters"], *, move: bool 
             evaluations += search.evaluations
     cost = float(np.sum(problem.residual(search.best) ** 2))
     outcome = search.outcome if move else Outcome.CONVERGED
-    return Fit(problem, LeastSquares(search.best, cost, outcome, evaluations, time.perf_counter() - began), ratio)
+    seconds = before + time.perf_counter() - began
+    return Fit(problem, LeastSquares(search.best, cost, outcome, evaluations, seconds), ratio)
 
 
 def refine(problem: Problem, start: Float[np.ndarray, "parameters"], evaluations: int = THOROUGH) -> LeastSquares:

@@ -10,7 +10,7 @@ from jaxtyping import Float
 from boresight.calibration.holdout import HeldOut
 from boresight.calibration.problem import Problem
 from boresight.calibration.result import Verdict
-from boresight.calibration.robust import Fit
+from boresight.calibration.robust import Fit, NoiseCheck, check_noise
 from boresight.inference import listed
 from boresight.units import in_millimetres
 
@@ -22,6 +22,9 @@ bootstrap cannot say so: two rows that happen to improve make an interval that i
 
 AT_BOUND = 1e-4
 """A parameter is held back by its bound where it is nearer to it than this share of its half-width."""
+
+UNLIKELY = 4.0
+"""Standard deviations of chi-square beyond which residuals are too small for the stated noise."""
 
 LOUD = 2.0
 """Residuals this many times the stated noise are worth saying."""
@@ -67,7 +70,7 @@ def judge(held_out: HeldOut, fit: Fit, seed: int, uncalibrated: str | None) -> V
         seed: of the bootstrap.
         uncalibrated: what of the tool's pose the readings cannot see, in words, if anything.
     """
-    problem, model_std = fit.problem, fit.problem.model_std
+    problem = fit.problem
     change, size = improvement(held_out, seed), held_out.residuals
     fell = f"from {in_millimetres(size.before.rms)} to {in_millimetres(size.after.rms)} RMS on {held_out.method}"
     interval = f"what is left is {change.low:.1%} to {change.high:.1%} of it, with 95 % confidence"
@@ -93,13 +96,31 @@ def judge(held_out: HeldOut, fit: Fit, seed: int, uncalibrated: str | None) -> V
         reasons.append(f"{listed(stuck)} {verb}: widen `within` for them, or look for a wrong nominal value or unit.")
     if uncalibrated:
         reasons.append(uncalibrated)
-    noise = float(np.median(problem.readings.std))
-    if model_std > LOUD * noise:
-        reasons.append(
-            f"The arm moves in ways this model does not have: residuals are {np.hypot(model_std, noise) / noise:.0f}x "
-            "the stated noise. Intervals are widened to match; gears, gravity or a wrong noise_std may explain it."
-        )
+    said = _noise_in_words(check_noise(fit), problem.model_std)
+    if said:
+        reasons.append(said)
     return Verdict(improved and not stuck, tuple(reasons))
+
+
+def _noise_in_words(check: NoiseCheck, model_std: float) -> str | None:
+    """Returns what a person should know where residuals disagree with the stated noise."""
+    test = f"chi-square {check.chi_square:.3g} where {check.freedom:.3g} is expected"
+    if model_std > 0.0 and check.ratio > LOUD:
+        return (
+            f"The arm moves in ways this model does not have: residuals are {check.ratio:.0f}x the stated noise "
+            f"({test}). Intervals are widened to match; gears, gravity or a wrong noise_std may explain it."
+        )
+    if model_std > 0.0:
+        return (
+            f"Residuals are {check.ratio:.2f}x the stated noise ({test}): noise_std is too small, or the arm moves in "
+            "ways this model does not have. Intervals are widened to match."
+        )
+    if check.deviation < -UNLIKELY:
+        return (
+            f"Residuals are only {check.ratio:.2f}x the stated noise ({test}): noise_std may be too large, and "
+            "intervals with it; they stay as stated."
+        )
+    return None
 
 
 def _ratio(before: Float[np.ndarray, "rows"], after: Float[np.ndarray, "rows"]) -> float:

@@ -14,7 +14,7 @@ from boresight.files.composing import Composer, KeyPath, expanded
 from boresight.files.problems import Problems, printable
 from boresight.files.sources import read_source
 
-LIMIT_MIB = 10
+LIMIT_MIB = 1
 
 
 @dataclass(frozen=True, slots=True)

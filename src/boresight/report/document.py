@@ -49,7 +49,13 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
             "rank": result.rank,
             "unseen": [{"parameters": list(unseen.parameters), "words": unseen.words} for unseen in result.unseen],
         },
-        "noise": {"unit": "m", "stated_std": result.stated_std, "model_std": result.model_std},
+        "noise": {
+            "unit": "m",
+            "stated_std": result.stated_std,
+            "model_std": result.model_std,
+            "chi_square": _number(result.noise.chi_square),
+            "degrees_of_freedom": result.noise.freedom,
+        },
         "frames": {"base": _frame(result.cell.base), "mount": _frame(result.cell.mount)},
         "targets": {
             name: {"normal": list(plane.normal), "offset": plane.offset} for name, plane in result.cell.targets.items()
@@ -64,6 +70,7 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
                 "residual": _number(outlier.residual_m),
                 "unit": "m",
                 "ratio": _number(outlier.ratio),
+                "reason": outlier.reason,
             }
             for outlier in result.outliers
         ],
@@ -92,7 +99,7 @@ def _residuals(residuals: Residuals) -> dict[str, Any]:
 
 
 def _summary(summary: ErrorSummary) -> dict[str, float | None]:
-    return {"rms": _number(summary.rms), "max": _number(summary.max)}
+    return {"rms": _number(summary.rms), "mean": _number(summary.mean), "max": _number(summary.max)}
 
 
 def _pose(uncertainty: PoseUncertainty) -> dict[str, Any]:
