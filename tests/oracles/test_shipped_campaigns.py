@@ -76,6 +76,30 @@ def test_a_real_arm_and_tracker_with_unknown_frames_reach_half_a_millimetre(cali
     assert any("moves in ways this model does not have" in reason for reason in result.verdict.reasons)
 
 
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_planted_gross_errors_are_all_found_and_do_no_harm(calibrated, solver):
+    campaign, result = calibrated("gross-outliers", solver)
+    truth = json.loads((EXAMPLES / "gross-outliers" / "truth.json").read_text())
+    assert planted_lines(campaign, truth) == {outlier.line for outlier in result.outliers}
+    assert len(result.outliers) == 6
+    assert position_error_mm(campaign.cell.arm, campaign, "gross-outliers") == pytest.approx(9.96, rel=0.01)
+    assert position_error_mm(result.cell.arm, campaign, "gross-outliers") <= 0.065
+
+
+def planted_lines(campaign, truth):
+    """The lines whose reading is off by more than 1 mm from what the true arm and plane would give."""
+    normal, nominal = truth["planes_true"]["deck"][0], campaign.cell.targets["deck"].normal
+    off = {
+        f"{joint.name}.{number}": truth["true"][number][place] - getattr(joint, number)
+        for place, joint in enumerate(campaign.cell.arm.joints)
+        for number in ("theta", "d", "a", "alpha", "beta")
+    }
+    off |= {"deck.normal_x": normal[0] - nominal[0], "deck.normal_z": normal[2] - nominal[2]}
+    true = campaign.cell.corrected(off).predict(campaign.readings.joints, campaign.readings.target)
+    wrong = np.abs(campaign.readings.values - true)[:, 0] > 1e-3
+    return {int(line) for line in campaign.readings.line[wrong]}
+
+
 def test_a_level_plane_is_said_to_hide_three_parameters(calibrated):
     _, result = calibrated("flat-plane")
     assert (result.free, result.rank) == (24, 21)
