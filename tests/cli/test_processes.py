@@ -54,11 +54,16 @@ def test_exit_codes_are_0_1_and_2(one_plane, tmp_path):
 def test_ctrl_c_in_a_long_search_exits_with_130_and_writes_nothing(one_plane, tmp_path):
     # A large population takes minutes to settle, so that patience does not end the search first.
     arguments = ("calibrate", one_plane.campaign, "-o", "here", "--population", "200000", "--generations", "100000")
-    process = start(*arguments, folder=tmp_path)
-    time.sleep(6.0)
-    assert process.poll() is None
-    process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=60)
+    # A shell ignores the signal for what it runs in the background, and its children inherit that.
+    listening = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.default_int_handler)}
+    with start(*arguments, folder=tmp_path, **listening) as process:
+        try:
+            time.sleep(6.0)
+            assert process.poll() is None
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=60)
+        finally:
+            process.kill()
     assert process.returncode == 130
     assert out == ""
     assert err.splitlines()[-1] == "Interrupted; nothing was written."
