@@ -13,13 +13,9 @@ from typing import Annotated, Literal
 from cyclopts import App, CycloptsError, Parameter
 
 from boresight import __version__
+from boresight.cli.codes import INTERRUPTED
 from boresight.cli.consoles import PipedConsole
 from boresight.errors import BoresightError
-
-REJECTED, INTERRUPTED = 2, 130
-
-LARGEST_SEED = 2**63 - 1
-"""Seeds are counted in 64 bits, and in JSON's readers with a sign."""
 
 SolverChoice = Literal["evolution+least-squares", "evolution", "least-squares"]
 StrategyChoice = Literal["trade-off", "rand-to-best/1", "current-to-best/1", "best/1", "rand/1"]

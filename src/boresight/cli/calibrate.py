@@ -9,7 +9,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from boresight import __version__
 from boresight.calibration import Solver, calibrate
-from boresight.cli.app import LARGEST_SEED, REJECTED
+from boresight.cli.codes import LARGEST_SEED, REJECTED
 from boresight.cli.consoles import PipedConsole, print_plain
 from boresight.errors import InputError
 from boresight.files import load_campaign

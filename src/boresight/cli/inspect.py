@@ -6,7 +6,7 @@ from pathlib import Path
 
 from boresight import __version__
 from boresight.calibration.inspect import inspect
-from boresight.cli.app import LARGEST_SEED
+from boresight.cli.codes import LARGEST_SEED
 from boresight.cli.consoles import PipedConsole, print_plain
 from boresight.errors import InputError
 from boresight.files import load_campaign

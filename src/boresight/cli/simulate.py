@@ -7,7 +7,7 @@ from pathlib import Path
 from rich.markup import escape
 
 from boresight.calibration.simulate import simulate
-from boresight.cli.app import LARGEST_SEED
+from boresight.cli.codes import LARGEST_SEED
 from boresight.cli.consoles import PipedConsole
 from boresight.errors import InputError
 from boresight.files import load_campaign
