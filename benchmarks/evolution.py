@@ -14,6 +14,7 @@ differs by more than 5 % of its standard deviation. The solvers:
 from __future__ import annotations
 
 import itertools
+import sys
 from dataclasses import dataclass
 from functools import partial
 
@@ -83,6 +84,7 @@ def run(quick: bool) -> Report:
         least, evolution, polish = np.array([o.seconds for o in outcomes]).T
         times = (np.median(t) for t in (least, evolution, least + evolution + polish))
         setting = (cell, f"{readings}", percent(share, 0), f"{widths['angle']:g} rad, {1e3 * widths['length']:g} mm")
+        print(*setting, reached, file=sys.stderr, flush=True)
         rows.append((*setting, *(percent(r, 0) for r in reached), *(f"{1e3 * t:.0f}" for t in times)))
     header = ("cell", "readings", "gross errors", "initial errors within", *SOLVERS, "from the truth")
     times = ("least squares, ms", "evolution, ms", "default, ms")

@@ -75,7 +75,7 @@ def with_gross_errors(seed: int, kind: Setup, share: float) -> Spoiled:
 
 
 def run(quick: bool) -> Report:
-    cleans, count = (50, 6) if quick else (500, 100)
+    cleans, count = (50, 6) if quick else (500, 60)
     figures, efficiency, gross = [], [], []
     for kind in SETUPS:
         outcomes = on_all_cores(partial(clean, kind=kind), range(cleans))

@@ -31,6 +31,21 @@ def test_few_clean_rows_are_all_believed():
     assert np.allclose(robust.x, refine(problem, true).best, atol=1e-7)
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_gross_errors_among_few_readings_are_found(seed):
+    campaign, _ = rehearsed_campaign(planes=3, rows=35, seed=seed, size=1.0)
+    dirty, planted = spoiled(campaign, 0.08, seed)
+    robust = fit(Problem(dirty.cell, dirty.readings, dirty.freedoms), np.zeros(len(dirty.freedoms)))
+    assert set(np.flatnonzero(~robust.kept)) == planted
+    assert robust.problem.model_std == 0.0
+
+
+def test_gross_errors_that_few_readings_cannot_tell_come_with_a_warning():
+    campaign, _ = rehearsed_campaign(planes=1, rows=30, seed=0, size=1.0)
+    result = boresight.calibrate(spoiled(campaign, 0.4, 0)[0], Solver("least-squares"))
+    assert any("rows are grossly wrong" in said or "do not fit" in said for said in result.warnings)
+
+
 def spoiled(campaign, share, seed):
     """The campaign with gross errors of 20 to 400 mm in a share of its rows, and which rows."""
     random = np.random.default_rng(seed)

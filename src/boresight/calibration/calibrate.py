@@ -15,7 +15,7 @@ from boresight.calibration.problem import Problem
 from boresight.calibration.result import Residuals, Result, Unseen
 from boresight.calibration.robust import Fit, check_noise
 from boresight.calibration.solve import Progress, Solver, solve
-from boresight.calibration.verdict import judge
+from boresight.calibration.verdict import LOUD, judge
 from boresight.errors import InputError
 from boresight.inference import (
     identify_directions,
@@ -32,6 +32,9 @@ WORKSPACE_CONFIGURATIONS = 500
 
 MANY_LEFT_OUT = 0.1
 """Share of rows left out beyond which a person should look before using the result."""
+
+FEW = 3
+"""With fewer values than this for each free parameter, gross errors can hide: a fit bends to them."""
 
 
 def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Progress | None = None) -> Result:
@@ -122,6 +125,11 @@ def _warnings(fit: Fit) -> tuple[str, ...]:
         said.append(
             f"{left_out} of {len(fit.kept)} rows do not fit with the others and were left out. With so many, the rest "
             "may be wrong together: check target names, planes, units and the ranger before you use this result."
+        )
+    if values < FEW * free and problem.model_std > 0.0 and (ratio := check_noise(fit).ratio) > LOUD:
+        said.append(
+            f"Residuals are {ratio:.0f}x the stated noise, and {values} readings for {free} free parameters cannot "
+            "tell whether the arm moves so or rows are grossly wrong. Take more readings before you use this result."
         )
     missed = int(np.count_nonzero(~np.isfinite(problem.errors(np.zeros(free)))))
     if missed:
