@@ -30,6 +30,7 @@ _XX, _XY, _XZ, _YX, _YY, _YZ, _ZX, _ZY, _ZZ, _TX, _TY, _TZ = (np.uint64(k * LANE
 def _sweep_tile(program, rows, planes, links, sensor, state, costs):
     """Adds every reading's cost to the members of one tile."""
     loss = program.loss
+    inverse_loss = 1.0 / loss if loss > 0.0 else 0.0
     joints = program.prismatic.shape[0]
     for row in range(rows.reading.shape[0]):
         start = np.uint64(rows.plane[row]) * np.uint64(4) * _LANES
@@ -61,8 +62,13 @@ def _sweep_tile(program, rows, planes, links, sensor, state, costs):
             f = moved_offset(x, y, z, state[_F + i], links[k + _TX], links[k + _TY], links[k + _TZ])
             nz = along(x, y, z, links[k + _ZX], links[k + _ZY], links[k + _ZZ])
             residual = range_residual(nz, f, sensor[i], sensor[_LANES + i], reading) if is_range else f - reading
-            squares = weight * residual * residual
-            costs[i] += squares if loss == 0.0 else 2.0 * loss * (np.sqrt(1.0 + squares / loss) - 1.0)
+            state[_X + i] = weight * residual * residual
+        if loss == 0.0:
+            for i in range(_LANES):
+                costs[i] += state[_X + i]
+        else:
+            for i in range(_LANES):
+                costs[i] += 2.0 * loss * (np.sqrt(1.0 + state[_X + i] * inverse_loss) - 1.0)
 
 
 @compiled
