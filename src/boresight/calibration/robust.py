@@ -110,8 +110,8 @@ def fit(problem: Problem, start: Float[np.ndarray, "parameters"], *, move: bool 
     is the answer; else sets of rows that agree with each other are tried (`concentration`) if readings are not plenty,
     and weights that fall from the start on, until one does; the lowest trimmed cost wins. Weighing first was tried
     alone: at the nominal model residuals are the arm's errors and not the rows', and of 200 clean campaigns of 35
-    rows and 25 parameters it ended in a wrong optimum in 15. Without sets that agree, 15 % gross errors were all found in
-    1 of 20 such campaigns, with them in 8 of 8 (more in benchmarks/results.md).
+    rows and 25 parameters it ended in a wrong optimum in 15. Without sets that agree, 15 % gross errors were all
+    found in 1 of 20 such campaigns, with them in 8 of 8 (more in benchmarks/results.md).
 
     Args:
         problem: what to fit; its weights and model_std are starting values.
