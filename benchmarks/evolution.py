@@ -87,7 +87,7 @@ def run(quick: bool) -> Report:
         for kind in [_sized(make, readings, size)]
     ]
     tasks = [(seed, kind, share) for kind, share, _ in lines for seed in range(count)]
-    outcomes = on_all_cores(contest, tasks, chunk=1)
+    outcomes = on_all_cores(contest, tasks)
     rows = []
     for place, (kind, share, size) in enumerate(lines):
         of_line = outcomes[place * count : (place + 1) * count]

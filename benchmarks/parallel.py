@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
-from concurrent.futures import ProcessPoolExecutor
 from typing import Any
 
+from boresight.parallel import in_order, local_workers
 
-def on_all_cores(function: Callable[[Any], Any], tasks: Iterable[Any], chunk: int = 8) -> list[Any]:
+
+def on_all_cores(function: Callable[[Any], Any], tasks: Iterable[Any]) -> list[Any]:
     """Returns the function's value of every task; tasks carry their own seeds."""
-    with ProcessPoolExecutor(max_workers=int(os.environ.get("BORESIGHT_WORKERS", os.cpu_count() or 1))) as pool:
-        return list(pool.map(function, tasks, chunksize=chunk))
+    workers = os.environ.get("BORESIGHT_WORKERS")
+    with local_workers(int(workers) if workers else None) as pool:
+        return in_order(pool, function, list(tasks))

@@ -88,7 +88,7 @@ def run(quick: bool) -> Report:
         )
     for kind in SETUPS:
         for share in SHARES:
-            outcomes = on_all_cores(partial(with_gross_errors, kind=kind, share=share), range(count), chunk=2)
+            outcomes = on_all_cores(partial(with_gross_errors, kind=kind, share=share), range(count))
             row, of_share = _summary(kind, share, outcomes)
             gross.append(row)
             figures += of_share

@@ -1,0 +1,91 @@
+"""Many independent tasks on several workers: any `concurrent.futures` executor, processes of this machine by default.
+
+Tasks carry their own seeds, so results do not depend on how many workers there are or on who did what.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import os
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from typing import TypeVar
+
+Task = TypeVar("Task")
+Value = TypeVar("Value")
+
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+AHEAD = 4
+"""Tasks handed out to each worker beyond the one it works on: none waits, and few are lost to an interrupt."""
+
+
+def worker_count(asked: int | None = None) -> int:
+    """Returns how many processes to use: as asked, or the cores this process may run on."""
+    if asked is not None:
+        return asked
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+@contextlib.contextmanager
+def local_workers(count: int | None = None) -> Iterator[Executor]:
+    """Yields worker processes of this machine, one thread each, and cancels what is left when it is over.
+
+    They are spawned, not forked: compiled code and threads of the parent do not survive a fork.
+    """
+    pool = ProcessPoolExecutor(worker_count(count), mp_context=multiprocessing.get_context("spawn"))
+    try:
+        yield pool
+    finally:
+        pool.shutdown(wait=True, cancel_futures=True)
+
+
+def completed(
+    executor: Executor, function: Callable[[Task], Value], tasks: Sequence[Task], ahead: int = 0
+) -> Iterator[tuple[int, Value]]:
+    """Yields the place of a task and its value, as they come.
+
+    Args:
+        executor: who works.
+        function: of one task, importable by a worker.
+        tasks: each with its own seed.
+        ahead: most tasks handed out at a time; enough for this machine's cores by default.
+    """
+    most = ahead or worker_count() * (1 + AHEAD)
+    waiting: dict[Future[Value], int] = {}
+    left = iter(enumerate(tasks))
+    with _one_thread_each():
+        try:
+            while True:
+                while len(waiting) < most and (one := next(left, None)) is not None:
+                    waiting[executor.submit(function, one[1])] = one[0]
+                if not waiting:
+                    return
+                done, _ = wait(waiting, return_when=FIRST_COMPLETED)
+                for future in done:
+                    yield waiting.pop(future), future.result()
+        finally:
+            for future in waiting:
+                future.cancel()
+
+
+def in_order(executor: Executor, function: Callable[[Task], Value], tasks: Sequence[Task]) -> list[Value]:
+    """Returns the values of all tasks, in their order."""
+    found = dict(completed(executor, function, tasks))
+    return [found[place] for place in range(len(tasks))]
+
+
+@contextlib.contextmanager
+def _one_thread_each() -> Iterator[None]:
+    """Has processes that start meanwhile use one thread for linear algebra: cores are counted by processes."""
+    before = {name: os.environ.get(name) for name in _THREADS}
+    os.environ.update(dict.fromkeys(_THREADS, "1"))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                os.environ.pop(name, None)
+            else:
+                os.environ[name] = value

@@ -1,0 +1,32 @@
+"""Figures in one look."""
+
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+
+from boresight.plots import COLOURS, panels, save
+
+
+def drawn():
+    figure, axes = panels(1, 2)
+    axes[0, 0].plot([0, 1], [1, 2])
+    axes[0, 1].semilogy([1, 10], [1, 100])
+    return figure
+
+
+def test_a_figure_is_written_as_png_and_svg(tmp_path):
+    png, svg = save(drawn(), tmp_path / "figure")
+    assert png.read_bytes().startswith(b"\x89PNG")
+    assert ElementTree.parse(svg).getroot().tag.endswith("svg")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["figure.png", "figure.svg"]
+
+
+def test_the_same_figure_gives_the_same_bytes(tmp_path):
+    first, second = (save(drawn(), tmp_path / name) for name in ("one", "two"))
+    assert all(a.read_bytes() == b.read_bytes() for a, b in zip(first, second, strict=True))
+
+
+def test_lines_take_the_house_colours():
+    _, axes = panels()
+    lines = [axes[0, 0].plot(np.arange(3))[0].get_color() for _ in COLOURS]
+    assert tuple(lines) == COLOURS
