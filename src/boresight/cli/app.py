@@ -117,6 +117,31 @@ def simulate(
     return run_simulate(campaign, output, rows=rows, validation_rows=validation_rows, size=size, seed=seed)
 
 
+@app.command
+def reproduce(
+    *,
+    output: Annotated[Path, Parameter(name=["--output", "-o"])] = Path("reproduction"),
+    quick: Annotated[bool, Parameter(negative="")] = False,
+    seeds: int | None = None,
+    seed: int = 0,
+    workers: int | None = None,
+) -> int:
+    """Do the paper's simulations again: its tables, figures and statements beside what is measured.
+
+    Writes index.html, the same page as Markdown, figures (PNG, SVG) and every number as CSV.
+
+    Args:
+        output: folder for the page.
+        quick: 20 seeds instead of 300, in less than a minute.
+        seeds: how many seeds, instead.
+        seed: the first of them; the same seeds give the same numbers.
+        workers: processes; one a core by default.
+    """
+    from boresight.cli.reproduce import run_reproduce
+
+    return run_reproduce(output, quick=quick, seeds=seeds, seed=seed, workers=workers)
+
+
 def main() -> None:
     """Runs the command line and exits with its code."""
     try:

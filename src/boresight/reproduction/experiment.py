@@ -71,7 +71,9 @@ def experiment(seed: int, assumed: Assumptions | None = None) -> Experiment:
     among those that are not singular; no beam has to meet anything there.
     """
     assumed = assumed or Assumptions()
-    nominal = Cell(setting.ARM, setting.RANGER, targets={"deck": setting.DECK} | (setting.WALLS if assumed.walls else {}))
+    nominal = Cell(
+        setting.ARM, setting.RANGER, targets={"deck": setting.DECK} | (setting.WALLS if assumed.walls else {})
+    )
     errors = preset_errors(seed, assumed, nominal)
     truth = nominal.corrected(errors)
     joints, target = _configurations(nominal, truth, assumed.cosine, seed)
