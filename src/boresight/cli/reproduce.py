@@ -18,7 +18,7 @@ from boresight.kernels.evolving import evolve_generations
 from boresight.reproduction import Document, compose, reproduce, write_reproduction
 from boresight.reproduction.folder import check_writable
 from boresight.reproduction.reproduce import QUICK_SEEDS, SEEDS
-from boresight.reproduction.statements import Verdict
+from boresight.reproduction.verdicts import Verdict
 
 MOST_SEEDS, MOST_WORKERS = 100_000, 1024
 
@@ -86,8 +86,6 @@ def _show(console: PipedConsole, page: Document, written: Path) -> None:
     console.print(table)
     tally = ", ".join(f"{count} {verdict.value}" for verdict, count in page.counts)
     console.print(f"\n{page.seeds} seeds. Of {len(page.judged)} statements: {tally}.")
-    if not any(
-        "minionpy, defaults" in block.words for s in page.sections for block in s.blocks if hasattr(block, "words")
-    ):
+    if not page.modern:
         console.print('L-SHADE and jSO were left out: pip install "boresight\\[benchmark]"')
     console.print(f"Page: [bold]{escape(str(written))}[/]", soft_wrap=True, highlight=False)

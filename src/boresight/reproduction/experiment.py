@@ -96,7 +96,7 @@ def preset_errors(seed: int, assumed: Assumptions, nominal: Cell) -> dict[str, f
 
 
 def _printed_errors() -> dict[str, float]:
-    """Returns the errors of the unit normal if those of section 4.3 are added to (0, 1, 4.6) before it is normalised."""
+    """Returns the unit normal's errors if those of section 4.3 are added to (0, 1, 4.6) before it is normalised."""
     x, z = (setting.PRINTED_NORMAL[f"deck.normal_{axis}"] for axis in "xz")
     real = Plane.of((x, 1.0, 4.6 + z), 0.0).normal
     return {f"deck.normal_{axis}": real[i] - setting.DECK.normal[i] for axis, i in (("x", 0), ("z", 2))}

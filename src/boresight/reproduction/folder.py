@@ -1,4 +1,4 @@
-"""The folder of a reproduction: page, figures and tables, each file whole or not at all, nothing foreign overwritten."""
+"""The folder of a reproduction: page, figures, tables; each file whole or not at all, nothing foreign overwritten."""
 
 from __future__ import annotations
 

@@ -6,9 +6,10 @@ import numpy as np
 
 from boresight.reproduction.measurements import Measurements
 from boresight.reproduction.paper_tables import numbers_of
+from boresight.reproduction.pose_statements import orientation, position
 from boresight.reproduction.setting import CANDIDATES, CASES
 from boresight.reproduction.spread import Spread
-from boresight.reproduction.statements import NEAR, Judged
+from boresight.reproduction.statements import Judged
 from boresight.reproduction.tables import Cell, Column, Table
 from boresight.reproduction.trials import Run
 from boresight.reproduction.variants import (
@@ -20,6 +21,7 @@ from boresight.reproduction.variants import (
     OPEN,
     THREE_PLANES,
 )
+from boresight.reproduction.verdicts import NEAR
 
 SISTER = {NOMINAL: (4.38, 5.08), 1: (1.77, 1.86), 2: (0.59, 0.87)}
 """Validation RMS [mm, mrad] of the sister paper (J. Robotics 2012, 587407): the same class of arm, a Jacobian-based
@@ -30,16 +32,6 @@ WORDS = {
     "rand-to-best/1": "rand-to-best/1, K = F",
     "current-to-best/1": "current-to-best/1, K = F",
 }
-
-
-def position(run: Run) -> float:
-    """Returns the RMS position error [mm] in validation."""
-    return run.validation.position_rms_mm
-
-
-def orientation(run: Run) -> float:
-    """Returns the RMS orientation error [mrad] in validation."""
-    return run.validation.orientation_rms_mrad
 
 
 def from_optimum(run: Run) -> float:

@@ -5,10 +5,9 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from boresight.reproduction.document import Document, Text
+from boresight.reproduction.document import Block, Document, Points, Text
 from boresight.reproduction.pictures import Picture
-from boresight.reproduction.statements import Verdict
-from boresight.reproduction.tables import Table
+from boresight.reproduction.verdicts import Verdict
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -45,9 +44,11 @@ def as_markdown(page: Document, version: str) -> str:
     return "\n\n".join(lines) + "\n"
 
 
-def _markdown(block: Text | Table | Picture) -> list[str]:
+def _markdown(block: Block) -> list[str]:
     if isinstance(block, Text):
         return [block.words]
+    if isinstance(block, Points):
+        return ["\n".join(f"- {words}" for words in block.words)]
     if isinstance(block, Picture):
         return [f"**{block.title}**", f"![{block.title}](figures/{block.name}.png)", block.caption]
     table = _rows([column.heading for column in block.columns], block.texts)

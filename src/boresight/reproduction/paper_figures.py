@@ -48,9 +48,11 @@ def costs(found: Measurements) -> Picture:
         axis.axhline(optimum, color=COLOURS[5], linewidth=1.0, linestyle=(0, (4, 3)))
         axis.set_title(title)
         axis.set_xlim(0, len(low) - 1)
-        axis.set_ylim(0.005, 3e7)
         name = f"{method}_case_{case}"
         columns += [(f"{name}_seed_{seed}", run.history_mm2), (f"{name}_p05", low), (f"{name}_p95", high)]
+    drawn = np.concatenate([values for _, values in columns])
+    for axis in axes.flat:
+        axis.set_ylim(0.5 * float(drawn.min()), 2.0 * float(drawn.max()))
     _outer_labels(axes, "generation", "cost H, mm²")
     first = axes[0, 0]
     first.annotate(
@@ -82,7 +84,7 @@ def ranges(found: Measurements) -> Picture:
             letter = "abcd"[2 * line + case - 1]
             axis = axes[line, case - 1]
             _stems(axis, errors, colour)
-            axis.set_title(f"({letter}) case {case}, {when}: at most {plain(float(np.abs(errors).max()))} mm")
+            axis.set_title(f"({letter}) case {case}, {when}: at most {plain(float(np.abs(errors).max()), 2)} mm")
             columns.append((f"case_{case}_{when}_mm", errors))
     _outer_labels(axes, "configuration", "range error, mm")
     return Picture(
@@ -149,7 +151,7 @@ def _pose_line(axes: Any, errors: Any, when: str, letters: str, colour: str) -> 
     ):
         _stems(axis, values, colour)
         axis.set_ylim(0, 1.12 * float(values.max()))
-        axis.set_title(f"({letter}) {what}, {when}: RMS {plain(rms(values))} {unit}")
+        axis.set_title(f"({letter}) {what}, {when}: RMS {plain(rms(values), 2)} {unit}")
         drawn.append((f"{what}_{when.replace(' ', '_')}_{unit}", values))
     return drawn
 
@@ -161,6 +163,7 @@ def _stems(axis: Any, values: np.ndarray, colour: str) -> None:
     axis.plot(number, values, "o", color=colour, markersize=2.6 if len(values) > 50 else 3.4)
     axis.axhline(0.0, color=COLOURS[5], linewidth=0.8)
     axis.set_xlim(0, len(values) + 1)
+    axis.xaxis.get_major_locator().set_params(integer=True)
 
 
 def _pose_labels(axes: Any) -> None:

@@ -1,9 +1,9 @@
 """The setting of the paper's section 4 as data: arm, plane, preset errors, scopes and the numbers of eq. (24).
 
-Tables 1 and 2 of the paper are images and lost. Table 1 is replaced by the catalogue's PUMA-like space arm. Table 2 was
-chosen for this project: link errors drawn once, uniform within 4 mrad and 2 mm, and rounded, so that the tool starts
-about as far off as in the sister paper (J. Robotics 2012, 587407: 4.4 mm and 5.1 mrad RMS); errors of the plane's normal
-are the paper's own (section 4.3).
+Tables 1 and 2 of the paper are images and lost. Table 1 is replaced by the catalogue's PUMA-like space arm. Table 2
+was chosen for this project: link errors drawn once, uniform within 4 mrad and 2 mm, and rounded, so that the tool
+starts about as far off as in the sister paper (J. Robotics 2012, 587407: 4.4 mm and 5.1 mrad RMS); errors of the
+plane's normal are the paper's own (section 4.3).
 """
 
 from __future__ import annotations

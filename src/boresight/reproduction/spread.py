@@ -9,6 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+SMALLEST = 1e-6
+"""Numbers below are shown as nought: their units are chosen so that none means anything there."""
+
 
 @dataclass(frozen=True, slots=True)
 class Spread:
@@ -30,9 +33,10 @@ class Spread:
         low, median, high = np.quantile(np.asarray(values, dtype=float), (0.05, 0.5, 0.95))
         return cls(float(median), float(low), float(high))
 
-    def text(self, digits: int = 3) -> str:
-        """Returns `median (low to high)`."""
-        return f"{plain(self.median, digits)} ({plain(self.low, digits)} to {plain(self.high, digits)})"
+    def text(self, digits: int = 3, unit: str = "") -> str:
+        """Returns `median unit (low to high)`."""
+        median = f"{plain(self.median, digits)} {unit}".rstrip()
+        return f"{median} ({plain(self.low, digits)} to {plain(self.high, digits)})"
 
 
 def plain(value: float, digits: int = 3) -> str:
@@ -41,6 +45,8 @@ def plain(value: float, digits: int = 3) -> str:
         return "–"
     if value == 0.0:
         return "0"
+    if abs(value) < SMALLEST:
+        return "≈ 0"
     decimals = max(0, digits - 1 - math.floor(math.log10(abs(value)) + 1e-12))
     text = f"{value:,.{min(decimals, 9)}f}"
     return text.replace("-", "−")

@@ -11,12 +11,14 @@ from boresight.reproduction.setting import CANDIDATES, CASES, THEIRS
 CHOSEN = "as chosen"
 AZIMUTH_FREE = "theta_1 free too"
 THREE_PLANES = "three planes"
+PRINTED = "errors of (23) as printed, not of the unit normal"
+GRAZING = "beams as flat as 78° to the normal (60° chosen)"
 
 ASSUMPTIONS = {
     CHOSEN: Assumptions(),
     "preset errors drawn anew for every seed": Assumptions(preset="drawn"),
-    "errors of (23) as printed, not of the unit normal": Assumptions(preset="printed"),
-    "beams as flat as 78° to the normal (60° chosen)": Assumptions(cosine=0.2),
+    PRINTED: Assumptions(preset="printed"),
+    GRAZING: Assumptions(cosine=0.2),
     "scopes of links twice as wide": Assumptions(scope=2.0),
     AZIMUTH_FREE: Assumptions(azimuth=True),
     THREE_PLANES: Assumptions(azimuth=True, walls=True),
