@@ -85,7 +85,8 @@ def _show(console: PipedConsole, page: Document, written: Path) -> None:
         table.add_row(escape(each.statement.says), f"[{_COLOURS[verdict]}]{verdict.value}[/]", escape(answers))
     console.print(table)
     tally = ", ".join(f"{count} {verdict.value}" for verdict, count in page.counts)
-    console.print(f"\n{page.seeds} seeds. Of {len(page.judged)} statements: {tally}.")
+    seeds = "1 seed" if page.seeds == 1 else f"{page.seeds} seeds"
+    console.print(f"\n{seeds}. Of {len(page.judged)} statements: {tally}.")
     if not page.modern:
         console.print('L-SHADE and jSO were left out: pip install "boresight\\[benchmark]"')
     console.print(f"Page: [bold]{escape(str(written))}[/]", soft_wrap=True, highlight=False)

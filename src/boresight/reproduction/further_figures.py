@@ -55,7 +55,7 @@ def strategies(found: Measurements) -> Picture:
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return Picture(
         "eq-16",
-        "What equation (16) may have been",
+        "How near the optimum each strategy ends",
         "Share of seeds whose final range error is below a multiple of the optimum's: further to the left and higher "
         "is better. Solid: candidates for eq. (16); dashed: the two classical strategies.",
         figure,
@@ -132,8 +132,8 @@ def configurations(found: Measurements) -> Picture:
     ]
     return Picture(
         "configurations",
-        "More configurations",
-        "Errors in validation, trade-off. Dashed: what averaging the noise alone would give, drawn through the median "
+        "Errors in validation against the number of configurations",
+        "Trade-off. Dashed: what averaging the noise alone would give, drawn through the median "
         "of 100 configurations. While readings hardly outnumber the 25 parameters, each further one brings more.",
         figure,
         csv_text(["configurations", *keys], rows),
@@ -173,7 +173,7 @@ def beside(found: Measurements) -> Picture:
         _plain_ticks(axis.xaxis, low, high)
     return Picture(
         "beside",
-        "The same data, other methods",
+        "Errors in validation, all methods",
         "Dot: median of all seeds; bar: nine seeds in ten. Diamonds: the sister paper's single numbers before "
         "(hollow) and after, on another arm of the same kind.",
         figure,

@@ -86,15 +86,15 @@ def ambiguity_table(found: Measurements) -> Table:
             rows.append((words, case, *(found.spread(number, "trade-off", count, under) for number in numbers)))
     return Table(
         "ambiguity",
-        "θ1 and n_x: one direction, two parameters",
+        "θ1 fixed and free",
         (
             Column("free", "free"),
             Column("case", "case"),
-            Column("range RMS, mm", "range_rms_mm"),
-            Column("position, absolute, mm", "position_rms_mm"),
-            Column("position, turn removed, mm", "turned_position_rms_mm"),
-            Column("orientation, absolute, mrad", "orientation_rms_mrad"),
-            Column("orientation, turn removed, mrad", "turned_orientation_rms_mrad"),
+            Column("range RMS, mm", "range_rms_mm", 2),
+            Column("position, absolute, mm", "position_rms_mm", 2),
+            Column("position, turn removed, mm", "turned_position_rms_mm", 2),
+            Column("orientation, absolute, mrad", "orientation_rms_mrad", 2),
+            Column("orientation, turn removed, mrad", "turned_orientation_rms_mrad", 2),
         ),
         tuple(rows),
         "RMS in the validation configurations, trade-off. Ranges fit equally well; only the pose in the base's frame "
@@ -125,11 +125,11 @@ def assumptions_table(found: Measurements) -> Table:
         (
             Column("assumed", "assumed"),
             Column("case", "case"),
-            Column("largest range error before, mm", "range_max_before_mm"),
-            Column("after, mm", "range_max_after_mm"),
+            Column("largest range error before, mm", "range_max_before_mm", 2),
+            Column("largest range error after, mm", "range_max_after_mm", 2),
             Column("within 1 % of the optimum", "share_within_1_percent", share=True),
             Column("validation position RMS before, mm", "position_rms_before_mm"),
-            Column("after, mm", "position_rms_after_mm"),
+            Column("validation position RMS after, mm", "position_rms_after_mm", 2),
         ),
         tuple(rows),
         "Trade-off, K = 1/2.",
@@ -149,7 +149,7 @@ def configurations_table(found: Measurements) -> Table:
     ]
     return Table(
         "configurations",
-        "More configurations",
+        "In numbers",
         (
             Column("configurations", "configurations"),
             Column("range RMS, mm", "range_rms_mm"),
@@ -206,7 +206,7 @@ def beside_table(found: Measurements) -> Table:
             )
     return Table(
         "beside",
-        "The same data, other methods",
+        "All methods in numbers",
         (
             Column("method", "method"),
             Column("case", "case"),

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
 from boresight.reproduction import setting
 from boresight.reproduction.measurements import Measurements
-from boresight.reproduction.spread import Spread
+from boresight.reproduction.spread import Spread, plain
 from boresight.reproduction.tables import Cell, Column, Table
 from boresight.reproduction.trials import Run
 from boresight.reproduction.variants import NOMINAL, Variant
@@ -37,16 +38,16 @@ def nominal_table() -> Table:
         "Table 1. Nominal geometric parameters",
         (
             Column("joint", "joint"),
-            Column("θ, °", "theta_deg"),
-            Column("d, mm", "d_mm"),
-            Column("a, mm", "a_mm"),
-            Column("α, °", "alpha_deg"),
-            Column("β, °", "beta_deg"),
+            Column("θ, °", "theta_deg", decimals=0),
+            Column("d, mm", "d_mm", decimals=0),
+            Column("a, mm", "a_mm", decimals=0),
+            Column("α, °", "alpha_deg", decimals=0),
+            Column("β, °", "beta_deg", decimals=0),
         ),
         rows,
-        "The paper's is an image and lost; this is the project's PUMA-like arm. Plane (23), normalised: "
-        f"n = (0, {setting.DECK.normal[1]:.5f}, {setting.DECK.normal[2]:.5f}), f = {1e3 * setting.DECK.offset:.2f} mm, "
-        "with the signs of eq. (7).".replace("-", "−"),
+        "The paper's is an image and lost; this is the project's PUMA-like arm. Plane (23), normalised: n = (0, "
+        f"{setting.DECK.normal[1]:.5f}, {setting.DECK.normal[2]:.5f}), f = {plain(1e3 * setting.DECK.offset, 5)} mm, "
+        "with the signs of eq. (7).",
     )
 
 
@@ -56,7 +57,7 @@ def preset_table() -> Table:
     return Table(
         "table-2",
         "Table 2. Preset errors (real minus nominal)",
-        (Column("parameter", "parameter"), Column("preset error", "preset", 2), Column("unit", "unit")),
+        (Column("parameter", "parameter"), Column("preset error", "preset", decimals=1), Column("unit", "unit")),
         rows,
         "The paper's is lost but for n_x and n_z (section 4.3). Link errors were drawn once for this project and "
         "rounded. θ1 defines azimuth and has none, except where it is free as a 26th parameter: "
@@ -80,9 +81,9 @@ def identified_table(found: Measurements, case: int) -> Table:
         f"Table {2 + case}. Identified errors, case {case} ({variant.rows} configurations, trade-off)",
         (
             Column("parameter", "parameter"),
-            Column("preset", "preset", 2),
-            Column(f"identified, seed {found.typical.seed}", "identified"),
-            Column("identified, all seeds", "identified_all"),
+            Column("preset", "preset", decimals=1),
+            Column(f"identified, seed {found.typical.seed}", "identified", decimals=2),
+            Column("identified, all seeds", "identified_all", decimals=2),
             Column("unit", "unit"),
         ),
         tuple(rows),
@@ -92,44 +93,28 @@ def identified_table(found: Measurements, case: int) -> Table:
 
 def pose_table(found: Measurements) -> Table:
     """Returns table 5: pose errors in the validation configurations."""
-    rows: list[tuple[Cell, ...]] = []
-    for name, method, count in (
-        ("nominal", NOMINAL, setting.CASES[1]),
-        *((f"case {case}", "trade-off", count) for case, count in setting.CASES.items()),
-    ):
-        runs = found.runs(method, count)
-        rows.append((name, *(Spread.of([number(run) for run in runs]) for number in _STATISTICS)))
-    headings = (
-        f"{what} {statistic}, {unit}"
-        for what, unit in (("position", "mm"), ("orientation", "mrad"))
-        for statistic in ("mean", "RMS", "max")
-    )
-    keys = (
-        f"{what}_{statistic}_{unit}"
-        for what, unit in (("position", "mm"), ("orientation", "mrad"))
-        for statistic in ("mean", "rms", "max")
-    )
+    columns = [("nominal", found.runs(NOMINAL, setting.CASES[1]))]
+    columns += [(f"case {case}", found.runs("trade-off", count)) for case, count in setting.CASES.items()]
+    rows: list[tuple[Cell, ...]] = [
+        (words, *(Spread.of([number(run) for run in runs]) for _, runs in columns)) for words, number in _STATISTICS
+    ]
     return Table(
         "table-5",
         "Table 5. Pose errors in the validation configurations",
-        (Column("parameters", "parameters"), *(Column(h, k) for h, k in zip(headings, keys, strict=True))),
+        (Column("error", "error"), *(Column(name, name.replace(" ", "_")) for name, _ in columns)),
         tuple(rows),
         f"Each statistic over the {setting.VALIDATION_ROWS} validation configurations of a seed; then median, and the "
         "range of nine seeds in ten.",
     )
 
 
-def _mean(values: np.ndarray) -> float:
-    return float(np.mean(values))
-
-
-_STATISTICS = (
-    lambda run: _mean(run.validation.position_mm),
-    lambda run: run.validation.position_rms_mm,
-    lambda run: float(np.max(run.validation.position_mm)),
-    lambda run: _mean(run.validation.orientation_mrad),
-    lambda run: run.validation.orientation_rms_mrad,
-    lambda run: float(np.max(run.validation.orientation_mrad)),
+_STATISTICS: tuple[tuple[str, Callable[[Run], float]], ...] = (
+    ("position, mean, mm", lambda run: float(np.mean(run.validation.position_mm))),
+    ("position, RMS, mm", lambda run: run.validation.position_rms_mm),
+    ("position, max, mm", lambda run: float(np.max(run.validation.position_mm))),
+    ("orientation, mean, mrad", lambda run: float(np.mean(run.validation.orientation_mrad))),
+    ("orientation, RMS, mrad", lambda run: run.validation.orientation_rms_mrad),
+    ("orientation, max, mrad", lambda run: float(np.max(run.validation.orientation_mrad))),
 )
 
 

@@ -19,6 +19,7 @@ class Column:
         heading: as it is shown, with its unit.
         key: as the CSV calls it, with its unit.
         digits: of a number that matter.
+        decimals: behind the point instead, where a column is read downwards.
         share: whether its numbers are shares, shown in per cent.
         in_csv: whether the CSV has it; times are left out there, so that the same seed gives the same bytes.
     """
@@ -26,16 +27,22 @@ class Column:
     heading: str
     key: str
     digits: int = 3
+    decimals: int | None = None
     share: bool = False
     in_csv: bool = True
 
     def text(self, cell: Cell) -> str:
         """Returns a cell as it is shown."""
         if isinstance(cell, Spread):
-            return cell.text(self.digits)
+            return f"{self._number(cell.median)} ({self._number(cell.low)} to {self._number(cell.high)})"
         if isinstance(cell, float):
-            return percent(cell) if self.share else plain(cell, self.digits)
+            return percent(cell) if self.share else self._number(cell)
         return f"{cell:,}" if isinstance(cell, int) else cell
+
+    def _number(self, value: float) -> str:
+        if self.decimals is None:
+            return plain(value, self.digits)
+        return f"{round(value, self.decimals) + 0.0:,.{self.decimals}f}".replace("-", "−")
 
 
 @dataclass(frozen=True)
