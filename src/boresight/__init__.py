@@ -30,6 +30,7 @@ _HOME = {
     "inspect": "boresight.calibration",
     "load_campaign": "boresight.files",
     "load_robot": "boresight.files",
+    "reproduce": "boresight.reproduction",
     "simulate": "boresight.calibration",
     "write_result": "boresight.report",
 }
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
     from boresight.files import load_campaign as load_campaign
     from boresight.files import load_robot as load_robot
     from boresight.report import write_result as write_result
+    from boresight.reproduction import reproduce as reproduce
     from boresight.sensing import Cell as Cell
 
 

@@ -35,15 +35,9 @@ def test_tables_1_to_5_and_figures_3_to_7_are_there(page):
 
 def test_figure_3_has_the_papers_four_panels_and_figure_7_its_six(page):
     figures = {picture.name: picture.figure for picture in page.pictures}
-    titles = {name: [axis.get_title(loc="left")[:3] for axis in figures[name].axes] for name in FIGURES[:5]}
-    assert (
-        titles["figure-3"]
-        == titles["figure-4"]
-        == titles["figure-5"]
-        == titles["figure-6"]
-        == ["(a)", "(b)", "(c)", "(d)"]
-    )
-    assert titles["figure-7"] == ["(a)", "(b)", "(c)", "(d)", "(e)", "(f)"]
+    titles = {name: "".join(axis.get_title(loc="left")[1] for axis in figures[name].axes) for name in FIGURES[:5]}
+    four = ("figure-3", "figure-4", "figure-5", "figure-6")
+    assert titles == dict.fromkeys(four, "abcd") | {"figure-7": "abcdef"}
 
 
 def test_every_table_is_rectangular_csv(page):

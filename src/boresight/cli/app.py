@@ -131,7 +131,7 @@ def reproduce(
     Writes index.html, the same page as Markdown, figures (PNG, SVG) and every number as CSV.
 
     Args:
-        output: folder for the page.
+        output: folder for the page; what an earlier run left there is replaced, nothing else.
         quick: 20 seeds instead of 300, in less than a minute.
         seeds: how many seeds, instead.
         seed: the first of them; the same seeds give the same numbers.
