@@ -98,7 +98,7 @@ def ambiguity_table(found: Measurements) -> Table:
         ),
         tuple(rows),
         "RMS in the validation configurations, trade-off. Ranges fit equally well; only the pose in the base's frame "
-        "differs.",
+        "differs. The turn removed is the one that fits positions best, so orientations may gain nothing by it.",
     )
 
 

@@ -65,8 +65,9 @@ def _environment() -> Environment:
     from markupsafe import Markup, escape
 
     def inline(words: str) -> Markup:
-        """Returns text with what stands in backticks as code."""
-        return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(words))))
+        """Returns text with what stands in backticks as code, and numbers kept with their units."""
+        text = re.sub(r"(?<=\d) (?=%|mm|mrad)", "\u00a0", str(escape(words)))
+        return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", text))
 
     environment = Environment(
         loader=ChoiceLoader([PackageLoader("boresight.reproduction"), PackageLoader("boresight.report")]),
@@ -79,6 +80,5 @@ def _environment() -> Environment:
         "inline": inline,
         "kind": lambda block: type(block).__name__,
         "mark": _MARKS.__getitem__,
-        "unbroken": lambda words: words.replace(" %", "\u00a0%").replace(": ", ":\u00a0"),
     }
     return environment
