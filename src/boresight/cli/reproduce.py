@@ -84,7 +84,7 @@ def _show(console: PipedConsole, page: Document, written: Path) -> None:
         answers = "; ".join(answer.text() for answer in each.finding.answers)
         table.add_row(escape(each.statement.says), f"[{_COLOURS[verdict]}]{verdict.value}[/]", escape(answers))
     console.print(table)
-    tally = ", ".join(f"{count} {verdict.value}" for verdict, count in page.counts)
+    tally = ", ".join(verdict.counted(count) for verdict, count in page.counts)
     seeds = "1 seed" if page.seeds == 1 else f"{page.seeds} seeds"
     console.print(f"\n{seeds}. Of {len(page.judged)} statements: {tally}.")
     if not page.modern:

@@ -23,7 +23,7 @@ def as_html(page: Document, version: str) -> str:
 def as_markdown(page: Document, version: str) -> str:
     """Returns the page as Markdown; figures lie beside it."""
     lines = ["# The paper, done again", *page.lead]
-    lines.append(", ".join(f"{_MARKS[verdict]} {verdict.value}: {count}" for verdict, count in page.counts))
+    lines.append(", ".join(f"{_MARKS[verdict]} {verdict.counted(count)}" for verdict, count in page.counts))
     lines.append("## The paper's statements, beside what was measured")
     rows = [
         (

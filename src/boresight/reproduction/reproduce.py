@@ -12,7 +12,7 @@ from boresight.reproduction.variants import modern_is_installed, variants
 SEEDS = 300
 """Seeds of a full run: a share of 95 % is then known to ± 2.5 % (two standard errors)."""
 
-QUICK_SEEDS = 20
+QUICK_SEEDS = 16
 """Seeds of a quick run."""
 
 

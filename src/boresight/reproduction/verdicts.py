@@ -28,6 +28,11 @@ class Verdict(enum.Enum):
     PARTLY = "holds in part"
     FAILS = "does not hold"
 
+    def counted(self, count: int) -> str:
+        """Returns how many statements stand so, in words."""
+        one, many = self.value, self.value.replace("holds", "hold").replace("does", "do")
+        return f"{count} {one if count == 1 else many}"
+
 
 @dataclass(frozen=True, slots=True)
 class Answer:
