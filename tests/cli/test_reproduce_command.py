@@ -8,6 +8,7 @@ def compiled_before(monkeypatch):
     monkeypatch.setattr("boresight.cli.reproduce.first_compile_ahead", lambda function: False)
 
 
+@pytest.mark.long
 def test_one_seed_writes_the_page_and_says_what_holds(boresight, tmp_path):
     said = boresight("reproduce", "--seeds", "1", "--workers", "1")
     assert (said.code, said.err) == (0, "")
