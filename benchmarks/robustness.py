@@ -27,6 +27,12 @@ SETUPS = (one_plane(100), three_planes(100), one_plane(35))
 SHARES = (0.08, 0.15, 0.25)
 WRONG = 3.0
 
+NOTE = (
+    "*Wrong* compares with the fit to clean readings, and *told which* with the planted rows taken out by hand. Where "
+    "the pose ratio equals the latter, what is lost is the rows' information, not the fit's fault: so it is with the "
+    "silently wrong results of 35 rows and 8 %, of which every planted row was found."
+)
+
 
 @dataclass(frozen=True)
 class Spoiled:
@@ -103,6 +109,7 @@ def run(quick: bool) -> Report:
             ),
             Table("Gross errors of 20 to 400 mm", ("campaign", "share", *header), tuple(gross)),
         ),
+        (NOTE,),
     )
 
 

@@ -21,14 +21,17 @@ _HOME = {
     "BoresightError": "boresight.errors",
     "Campaign": "boresight.calibration",
     "Cell": "boresight.sensing",
+    "Compensation": "boresight.compensation",
     "InputError": "boresight.errors",
     "Inspection": "boresight.calibration",
     "Joint": "boresight.arm",
     "Result": "boresight.calibration",
     "Solver": "boresight.calibration",
     "calibrate": "boresight.calibration",
+    "compensate": "boresight.compensation",
     "inspect": "boresight.calibration",
     "load_campaign": "boresight.files",
+    "load_result": "boresight.files",
     "load_robot": "boresight.files",
     "reproduce": "boresight.reproduction",
     "simulate": "boresight.calibration",
@@ -47,9 +50,12 @@ if TYPE_CHECKING:
     from boresight.calibration import calibrate as calibrate
     from boresight.calibration import inspect as inspect
     from boresight.calibration import simulate as simulate
+    from boresight.compensation import Compensation as Compensation
+    from boresight.compensation import compensate as compensate
     from boresight.errors import BoresightError as BoresightError
     from boresight.errors import InputError as InputError
     from boresight.files import load_campaign as load_campaign
+    from boresight.files import load_result as load_result
     from boresight.files import load_robot as load_robot
     from boresight.report import write_result as write_result
     from boresight.reproduction import reproduce as reproduce

@@ -1,7 +1,7 @@
 """The commands and their exit codes.
 
 0: done, and accepted where there is a verdict; 1: an error in input or usage; 2: the calibration ran and was
-rejected; 130: interrupted.
+rejected, or poses cannot be reached; 130: interrupted.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ app = App(
     name="boresight",
     version=__version__,
     help="Calibrate a robot arm with a laser ranger and a flat plate, and be told how far to trust the result.",
-    help_epilogue="Exit codes: 0 accepted, 1 an error in input or usage, 2 rejected, 130 interrupted.",
+    help_epilogue="Exit codes: 0 accepted, 1 an error in input or usage, 2 rejected or not reached, 130 interrupted.",
     suppress_keyboard_interrupt=False,  # it would end without a word
 )
 
@@ -115,6 +115,48 @@ def simulate(
     from boresight.cli.simulate import run_simulate
 
     return run_simulate(campaign, output, rows=rows, validation_rows=validation_rows, size=size, seed=seed)
+
+
+@app.command
+def compensate(
+    result: Path,
+    poses: Path,
+    *,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    controller_poses: Annotated[bool, Parameter(negative="")] = False,
+    position_only: Annotated[bool, Parameter(negative="")] = False,
+    length: Literal["m", "mm"] = "m",
+    angle: Literal["rad", "deg"] = "rad",
+    overwrite: Annotated[bool, Parameter(negative="")] = False,
+    json: Annotated[bool, Parameter(negative="")] = False,
+) -> int:
+    """Find the joint commands that put the calibrated arm where the nominal one was asked to go.
+
+    Args:
+        result: folder of a calibration's result.
+        poses: CSV of the program: a column a joint, or poses of the flange in the arm's base frame (x, y, z with or
+            without qw, qx, qy, qz), or both; other columns are handed on.
+        output: CSV to write; POSES-compensated.csv in the present folder by default.
+        controller_poses: write poses to command to a controller that keeps the nominal model, not joint readings.
+        position_only: leave orientation free.
+        length: unit of lengths in both files.
+        angle: unit of angles in both files.
+        overwrite: replace the output if it is there.
+        json: print a summary as JSON.
+    """
+    from boresight.cli.compensate import run_compensate
+
+    return run_compensate(
+        result,
+        poses,
+        output,
+        controller_poses=controller_poses,
+        position_only=position_only,
+        length=length,
+        angle=angle,
+        overwrite=overwrite,
+        as_json=json,
+    )
 
 
 @app.command

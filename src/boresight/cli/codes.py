@@ -3,6 +3,9 @@
 REJECTED = 2
 """The calibration ran, and its result should not be used."""
 
+NOT_REACHED = 2
+"""The commands were written, and some of the poses cannot be reached."""
+
 INTERRUPTED = 130
 """Ctrl-C, by the shell's convention: 128 and the signal's number."""
 
