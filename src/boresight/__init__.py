@@ -33,6 +33,7 @@ _HOME = {
     "load_campaign": "boresight.files",
     "load_result": "boresight.files",
     "load_robot": "boresight.files",
+    "reproduce": "boresight.reproduction",
     "simulate": "boresight.calibration",
     "write_result": "boresight.report",
 }
@@ -57,6 +58,7 @@ if TYPE_CHECKING:
     from boresight.files import load_result as load_result
     from boresight.files import load_robot as load_robot
     from boresight.report import write_result as write_result
+    from boresight.reproduction import reproduce as reproduce
     from boresight.sensing import Cell as Cell
 
 
