@@ -30,7 +30,9 @@ _HOME = {
     "inspect": "boresight.calibration",
     "load_campaign": "boresight.files",
     "load_robot": "boresight.files",
+    "load_study": "boresight.files",
     "simulate": "boresight.calibration",
+    "study": "boresight.studies",
     "write_result": "boresight.report",
 }
 
@@ -50,8 +52,10 @@ if TYPE_CHECKING:
     from boresight.errors import InputError as InputError
     from boresight.files import load_campaign as load_campaign
     from boresight.files import load_robot as load_robot
+    from boresight.files import load_study as load_study
     from boresight.report import write_result as write_result
     from boresight.sensing import Cell as Cell
+    from boresight.studies import study as study
 
 
 def __getattr__(name: str) -> Any:
