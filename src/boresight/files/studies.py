@@ -19,7 +19,7 @@ from boresight.files.problems import Problems, listed, shown
 from boresight.files.schemas import CampaignEntry, RobotChoice
 from boresight.files.study_schemas import StudyEntry
 from boresight.sensing import Cell
-from boresight.studies import Bench, Settings, Study, grid
+from boresight.studies import Bench, Chosen, Settings, Study, grid
 from boresight.studies.grid import AXES
 
 USUAL_ERRORS = 0.2
@@ -73,7 +73,8 @@ def _benches(document: Document, entry: StudyEntry, problems: Problems) -> tuple
         where: KeyPath = ("vary", "robot", place) if entry.vary.robot else ("robot",)
         with problems.gathered():
             bench = _own_bench(document, entry, robot, where, problems)
-            benches[robot.catalogue or Path(robot.file or "").stem] = bench
+            name = robot.catalogue or Path(robot.file or "").stem
+            benches[str(robot.file) if name in benches else name] = bench
     assert entry.sensor is not None
     metres = entry.units.value.metres
     return benches, {"noise_std": entry.sensor.noise_std * metres, "repeats": entry.sensor.repeats}
@@ -175,29 +176,29 @@ def _settings(
 
 def _targets(
     document: Document, where: KeyPath, given: Any, benches: Mapping[str, Bench], problems: Problems
-) -> tuple[str, ...]:
-    """Returns the names of the targets that are meant: the first so many, or by name."""
+) -> Chosen:
+    """Returns the targets that are meant: the first so many, or by name."""
     known = tuple(next(iter(benches.values())).cell.targets)
     if isinstance(given, int):
         if given > max(len(known), 1):
             problems.add(f"{document.at(where)}got {given}; there are {len(known)} targets: {listed(known)}")
-        return known[:given]
+        return Chosen(str(given), known[:given])
     for name in given:
         if name not in known:
             near = did_you_mean(name[:60], known)
             problems.add(f"{document.at(where)}there is no target {shown(name)}{near}; the targets are {listed(known)}")
-    return tuple(name for name in known if name in given)
+    return Chosen(", ".join(given), tuple(name for name in known if name in given))
 
 
 def _fixed_in_all(
     document: Document, where: KeyPath, patterns: tuple[str, ...], benches: Mapping[str, Bench], problems: Problems
-) -> tuple[str, ...]:
+) -> Chosen:
     """Returns the parameters that patterns mean in any of the cells."""
     reached: dict[str, None] = {}
     for bench in benches.values():
         for names in _fixed(document, patterns, bench.cell, problems, where):
             reached |= dict.fromkeys(names)
-    return tuple(reached)
+    return Chosen(", ".join(patterns) or "none", tuple(reached))
 
 
 def _fixed(

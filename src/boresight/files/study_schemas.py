@@ -136,7 +136,7 @@ class StudyEntry(Entry):
 
     @model_validator(mode="after")
     def _not_twice(self) -> StudyEntry:
-        twice = [key for key in sorted(self.vary.model_fields_set) if key in self.model_fields_set]
+        twice = sorted((self.vary.model_fields_set & self.model_fields_set) - {"fixed"})  # these add up
         if twice:
             raise expected(f"{twice[0]} either as one value or under vary, not both")
         return self

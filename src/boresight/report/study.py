@@ -12,6 +12,7 @@ from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
+from rich.measure import Measurement
 from rich.table import Table
 
 from boresight.files.writing import write_atomically
@@ -46,8 +47,11 @@ def print_study(console: Console, summary: Summary, folder: Path | None) -> None
         f"[bold]{escape(study.name)}[/]  {summary.done:,} of {len(study):,} runs, "
         f"{len(study.points)} point{'s' if len(study.points) != 1 else ''} of {study.seeds:,} seeds"
     )
-    console.print(_table(summary))
-    console.print("  Errors of the tool at validation configurations, RMS; medians over the campaigns, and 90 % below.")
+    table = _table(summary)
+    if not console.is_terminal:  # what is piped has no width of its own: nothing is cut short
+        console.width = max(console.width, Measurement.get(console, console.options.update(max_width=1000), table).maximum)
+    console.print(table)
+    console.print("  Position and angle of the tool at validation configurations, RMS: medians.")
     failures = [o.failure for each in summary.points for o in each.outcomes.values() if o.failure]
     if failures:
         console.print(f"[yellow]Warning:[/] {len(failures)} runs could not be made, the first: {escape(failures[0])}")
@@ -59,10 +63,10 @@ def _table(summary: Summary) -> Table:
     varied, gross = summary.study.varied, any(p.point.settings.gross_errors for p in summary.points)
     table = Table(box=None, padding=(0, 1), pad_edge=True)
     for axis in varied:
-        table.add_column(TITLES[axis], justify="right", style="bold")
-    titles = ("runs", "before, mm", "position, mm", "90 %", "angle, mrad", "inside 95 %", "optimum")
-    for title in (*titles, *(("gross found",) if gross else ()), "ms"):
-        table.add_column(title, justify="right")
+        table.add_column(TITLES[axis].replace(" ", "\n", 1), justify="right", style="bold", no_wrap=True)
+    titles = ("runs", "before\nmm", "after\nmm", "90 %\nmm", "angle\nmrad", "inside\n95 %", "at the\noptimum")
+    for title in (*titles, *(("gross\nfound",) if gross else ()), "search\nms"):
+        table.add_column(title, justify="right", no_wrap=True)
     for each in summary.points:
         table.add_row(*(shown(axis, each.point.label(axis)) for axis in varied), *_cells(each, gross))
     return table

@@ -2,6 +2,7 @@
 
 from boresight.studies.grid import AXES as AXES
 from boresight.studies.grid import Bench as Bench
+from boresight.studies.grid import Chosen as Chosen
 from boresight.studies.grid import Point as Point
 from boresight.studies.grid import Settings as Settings
 from boresight.studies.grid import Study as Study

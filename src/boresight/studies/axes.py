@@ -26,11 +26,11 @@ LONG_TITLES = TITLES | {
     "repeats": "readings averaged in a configuration",
     "noise_std": "noise of one reading, mm (standard deviation)",
     "error_size": "size of the initial errors",
-    "gross_errors": "share of gross errors",
+    "gross_errors": "gross errors, % of the readings",
     "fixed": "parameters held",
 }
 
-_IN_MM = ("noise_std",)
+_SCALES = {"noise_std": 1e3, "gross_errors": 1e2}
 _NUMBERS = ("rows", "repeats", "noise_std", "error_size", "gross_errors", "population", "generations")
 
 assert tuple(TITLES) == AXES
@@ -45,7 +45,7 @@ def number(axis: str, value: Any) -> float:
     """Returns a value of an axis of numbers as its figures show it; NaN where it means nothing."""
     if value is None:
         return float("nan")
-    return 1e3 * value if axis in _IN_MM else float(value)
+    return float(f"{_SCALES.get(axis, 1.0) * value:.12g}")
 
 
 def shown(axis: str, value: Any) -> str:
@@ -53,5 +53,5 @@ def shown(axis: str, value: Any) -> str:
     if value is None:
         return "–"
     if axis == "gross_errors":
-        return f"{100 * value:g} %"
+        return f"{number(axis, value):g} %"
     return f"{number(axis, value):g}" if is_number(axis) else str(value)

@@ -15,10 +15,13 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-MOST_LINES = 6
-"""A panel with more lines than colours cannot be read: the other settings are then shown in panels of their own."""
+MOST_LINES = 5
+"""A panel with more lines cannot be read: of more values the first, the last and some between are shown."""
 
-_PANEL = (4.6, 3.3)
+MOST_PANELS = 4
+"""The same of panels that differ in what their lines leave open."""
+
+_PANEL = (5.4, 3.1)
 _MARKERS = "osD^vP"
 
 Line = tuple[str, Sequence[PointSummary]]
@@ -34,9 +37,10 @@ def accuracy_figure(summary: Summary) -> Figure:
         axes.errorbar(x, median, yerr=bars, capsize=2.5, elinewidth=0.9, **look)
 
     figure = _figure(summary, draw, "position error of the tool, mm (RMS)")
-    for axes in figure.axes:
-        if axes.has_data():
-            _logarithmic(axes)
+    drawn = [axes for axes in figure.axes if axes.has_data()]
+    for axes in drawn:
+        _logarithmic(axes)
+    _alike(drawn)
     return figure
 
 
@@ -63,15 +67,24 @@ def effort_figure(summary: Summary) -> Figure:
         axes.errorbar(x, median, yerr=bars, capsize=2.5, elinewidth=0.9, **look)
 
     figure = _figure(summary, draw, "time of one search, ms")
-    for axes in figure.axes:
+    drawn = [axes for axes in figure.axes if axes.has_data()]
+    _alike(drawn)
+    for axes in drawn:
         axes.set_ylim(bottom=0.0)
     return figure
+
+
+def _alike(drawn: Sequence[Axes]) -> None:
+    """Gives all panels the same heights, so that they can be compared."""
+    limits = np.array([axes.get_ylim() for axes in drawn])
+    for axes in drawn:
+        axes.set_ylim(limits[:, 0].min(), limits[:, 1].max())
 
 
 def _figure(summary: Summary, draw: Callable[..., None], what: str) -> Figure:
     """Returns a figure with a panel for each varied thing and each setting that its lines leave open."""
     shown_panels = _panels(summary)
-    columns = min(len(shown_panels), 3)
+    columns = min(len(shown_panels), 2)
     rows = -(-len(shown_panels) // columns)
     figure, axes = panels(rows, columns, _PANEL)
     for place, (axis, title, lines) in enumerate(shown_panels):
@@ -84,22 +97,27 @@ def _figure(summary: Summary, draw: Callable[..., None], what: str) -> Figure:
 def _panels(summary: Summary) -> list[tuple[str, str, list[Line]]]:
     """Returns (varied thing, title, lines) of every panel.
 
-    A line is what differs in one other thing only, the one with most values that fit; a panel is what is left open.
+    Lines differ in all other things where these are few, else in the one of most values; panels then in what is left.
     """
     done = [each for each in summary.points if each.good]
     varied = summary.study.varied or ("rows",)
     found = []
     for axis in varied:
         others = [other for other in varied if other != axis]
-        if len(_groups(done, others)) <= MOST_LINES:
-            found.append((axis, "", _lines(done, others)))
-            continue
-        fitting = [o for o in others if len(_groups(done, [o])) <= MOST_LINES]
-        by = max(fitting, key=lambda o: len(_groups(done, [o]))) if fitting else None
-        left = [other for other in others if other != by]
-        for title, part in _groups(done, left).items():
-            found.append((axis, title, _lines(part, [by] if by else [])))
+        by = others
+        if len(_groups(done, others)) > MOST_LINES and len(others) > 1:
+            by = [max(others, key=lambda other: len(_groups(done, [other])))]
+        left = [other for other in others if other not in by]
+        for title, part in _thinned(list(_groups(done, left).items()), MOST_PANELS):
+            found.append((axis, title, _thinned(_lines(part, by), MOST_LINES)))
     return found
+
+
+def _thinned(items: list[Any], most: int) -> list[Any]:
+    """Returns all items, or where they are too many the first, the last and some evenly between."""
+    if len(items) <= most:
+        return items
+    return [items[place] for place in np.unique(np.linspace(0, len(items) - 1, most).round().astype(int))]
 
 
 def _lines(points: Sequence[PointSummary], by: Sequence[str]) -> list[Line]:
@@ -116,6 +134,8 @@ def _groups(points: Sequence[PointSummary], by: Sequence[str]) -> dict[str, list
 
 
 def _worded(axis: str, value: Any) -> str:
+    if axis == "planes":
+        return f"{value} plane{'s' if value != '1' else ''}" if value.isdigit() else value
     if axis in ("rows", "repeats"):
         word = TITLES[axis].removesuffix("s") if value == 1 else TITLES[axis]
         return f"{shown(axis, value)} {word}"
@@ -141,15 +161,16 @@ def _panel(
             "marker": _MARKERS[place % len(_MARKERS)],
             "label": name or None,
         }
+        beside = 0.09 * (place - 0.5 * (len(lines) - 1))
         if numeric:
             line = sorted(line, key=lambda each: number(axis, each.point.label(axis)))
             x = np.array([number(axis, each.point.label(axis)) for each in line])
+            x = _beside(x, beside)
         else:
-            beside = 0.09 * (place - 0.5 * (len(lines) - 1))
             x = np.array([values.index(each.point.label(axis)) for each in line]) + beside
             look["linestyle"] = "none"
         draw(axes, x, line, look)
-    axes.set_title(title)
+    axes.set_title(title, loc="left", fontsize=9.5)
     axes.set_xlabel(LONG_TITLES[axis])
     axes.set_ylabel(what)
     if numeric:
@@ -158,12 +179,23 @@ def _panel(
         axes.set_xticks(range(len(values)), [_wrapped(shown(axis, value)) for value in values])
         axes.set_xlim(-0.5, len(values) - 0.5)
     if any(name for name, _ in lines):
-        axes.legend()
+        axes.legend(frameon=False, fontsize=8.5, loc="center left", bbox_to_anchor=(1.0, 0.5))
+
+
+def _wide(values: Sequence[float] | np.ndarray) -> bool:
+    return bool(values[0] > 0.0 and values[-1] / values[0] >= 4.0)
+
+
+def _beside(x: np.ndarray, share: float) -> np.ndarray:
+    """Returns sorted places moved by a share of a twelfth of their span, so that bars do not hide each other."""
+    if _wide(x):
+        return x * (x[-1] / x[0]) ** (share / 12.0)
+    return x + share / 12.0 * (x[-1] - x[0])
 
 
 def _number_ticks(axes: Axes, values: list[float]) -> None:
     """Marks the values that were tried, as far as they can be told apart."""
-    wide = values[0] > 0.0 and values[-1] / values[0] >= 4.0
+    wide = _wide(values)
     if wide:
         axes.set_xscale("log")
     place = np.log if wide else np.asarray

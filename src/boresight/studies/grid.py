@@ -57,12 +57,28 @@ class Bench:
 
 
 @dataclass(frozen=True)
+class Chosen:
+    """Some targets or parameters.
+
+    Attributes:
+        words: what the study calls them: `3`, `base.*`.
+        names: which they are.
+    """
+
+    words: str
+    names: tuple[str, ...] = ()
+
+
+NONE = Chosen("none")
+
+
+@dataclass(frozen=True)
 class Settings:
     """What can be varied beside the robot.
 
     Attributes:
-        planes: names of the targets that are used.
-        fixed: parameters that are neither wrong nor estimated.
+        planes: the targets that are used.
+        fixed: the parameters that are neither wrong nor estimated.
         rows: configurations drawn; None for the bench's own.
         repeats: readings averaged in a row.
         noise_std: standard deviation of one reading [m].
@@ -73,10 +89,10 @@ class Settings:
         validation_rows: configurations drawn to judge by.
     """
 
-    planes: tuple[str, ...]
+    planes: Chosen
     noise_std: float
     repeats: int = 1
-    fixed: tuple[str, ...] = ()
+    fixed: Chosen = NONE
     rows: int | None = 35
     error_size: float = 1.0
     gross_errors: float = 0.0
@@ -110,7 +126,7 @@ class Point:
         return replace(
             cell,
             sensor=replace(sensor, noise_std=settings.noise_std, repeats=settings.repeats),
-            targets={name: plane for name, plane in cell.targets.items() if name in settings.planes},
+            targets={name: plane for name, plane in cell.targets.items() if name in settings.planes.names},
         )
 
     @cached_property
@@ -119,7 +135,7 @@ class Point:
         return tuple(
             self._scaled(freedom)
             for freedom in self.bench.freedoms
-            if freedom.parameter in self.cell.index and freedom.parameter not in self.settings.fixed
+            if freedom.parameter in self.cell.index and freedom.parameter not in self.settings.fixed.names
         )
 
     @property
@@ -148,7 +164,7 @@ class Point:
         value = getattr(self.settings, axis)
         if axis == "rows" and value is None:
             return len(self.bench.joints)  # type: ignore[arg-type]
-        return ", ".join(value) or "none" if isinstance(value, tuple) else value
+        return value.words if isinstance(value, Chosen) else value
 
     def _scaled(self, freedom: Freedom) -> Freedom:
         assert freedom.within is not None
@@ -209,7 +225,7 @@ def grid(benches: Mapping[str, Bench], axes: Mapping[str, Sequence[Any]], fixed:
 
     Args:
         benches: by the robot's name.
-        axes: values of each thing that is varied beside the robot; planes and fixed parameters as tuples of names.
+        axes: values of each thing that is varied beside the robot.
         fixed: all other settings.
 
     Raises:
