@@ -1,8 +1,10 @@
 """A run hangs on its point and seed alone, and is judged against its truth."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from small_studies import bench, planes, point
+from small_studies import bench, planes, point, settings
 
 from boresight.geometry import Plane
 from boresight.studies import Bench, run
@@ -82,24 +84,18 @@ def test_averaging_a_hundred_readings_is_a_ranger_ten_times_better():
 
 def test_a_run_that_cannot_be_made_says_why_and_is_no_exception():
     cell = bench().cell
-    blind = Point("blind", Bench(Cell_with_sky(cell), bench().freedoms), point(planes=planes(1)).settings)
-    outcome = run(blind, 0)
+    stiff = tuple(replace(joint, limits=(-1e-3, 1e-3)) for joint in cell.arm.joints)
+    away = {"deck": Plane.of((0.0, 0.0, 1.0), 50.0)}
+    blind = replace(cell, arm=replace(cell.arm, joints=stiff), targets=away)
+    outcome = run(Point("blind", Bench(blind, bench().freedoms), settings(planes=planes(1))), 0)
     assert "hardly any configuration" in outcome.failure
     assert np.isnan(outcome.position_rms)
     assert not outcome.reached
 
 
-def Cell_with_sky(cell):
-    from dataclasses import replace
-
-    limits = [replace(joint, limits=(-1e-3, 1e-3)) for joint in cell.arm.joints]
-    away = {"deck": Plane.of((0.0, 0.0, 1.0), 50.0)}
-    return replace(cell, arm=replace(cell.arm, joints=tuple(limits)), targets=away)
-
-
 def test_own_configurations_are_used_where_no_rows_are_asked_for():
     joints, target = draw_configurations((bench().cell,), 37, 9)
-    own = Point("space-arm", Bench(bench().cell, bench().freedoms, joints, target), point(rows=None).settings)
+    own = Point("space-arm", Bench(bench().cell, bench().freedoms, joints, target), settings(rows=None))
     assert own.label("rows") == 37
     assert own.key != point().key
     assert run(own, 0).reached

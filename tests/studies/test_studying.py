@@ -2,14 +2,13 @@
 
 import os
 import signal
-import sqlite3
 import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import pytest
 from small_studies import numbers, point, small_study
 
-from boresight.errors import BoresightError
+from boresight.errors import BoresightError, OutputError
 from boresight.parallel import local_workers
 from boresight.studies import Store, run, study
 from boresight.studies.study import Shard, missing, run_task
@@ -154,6 +153,6 @@ def test_a_shard_that_does_not_exist_is_refused():
 
 def test_a_half_written_run_is_no_run(tmp_path):
     with Store.open(tmp_path / "runs.sqlite") as store:
-        with pytest.raises(sqlite3.Error):
-            store.add_many([(point(), 0, run(point(), 0)), (point(), None, object())])
+        with pytest.raises(OutputError):
+            store.add_many([(point(), 0, run(point(), 0)), (point(), [], run(point(), 1))])
         assert store.seeds(point()) == set()
