@@ -1,4 +1,4 @@
-"""A study that is killed, as a whole process, resumes: nothing is lost, nothing is made twice, nobody is left behind."""
+"""A study whose process is killed resumes: nothing is lost, nothing is made twice, nobody is left behind."""
 
 import os
 import signal
@@ -19,7 +19,8 @@ from small_studies import small_study
 from boresight.studies import study
 
 if __name__ == "__main__":
-    study(small_study(int(sys.argv[2])), Path(sys.argv[1]), workers=2, on_progress=lambda *both: print(*both, flush=True))
+    asked, path = small_study(int(sys.argv[2])), Path(sys.argv[1])
+    study(asked, path, workers=2, on_progress=lambda *both: print(*both, flush=True))
 """
 
 SEEDS = 20

@@ -128,14 +128,15 @@ def test_a_killed_worker_process_costs_nothing(tmp_path, reference, monkeypatch)
 
 
 def test_workers_that_keep_dying_are_told_and_what_was_done_is_kept(tmp_path):
-    with local_workers(1) as pool, pytest.raises(BoresightError, match="worker processes keep dying"):
+    with local_workers(1) as pool:
         pool.submit(os.getpid).result()
         for process in list(pool._processes):
             os.kill(process, signal.SIGKILL)
         deadline = time.monotonic() + 20
         while not pool._broken and time.monotonic() < deadline:
             time.sleep(0.05)
-        study(small_study(), tmp_path / "runs.sqlite", executor=pool)
+        with pytest.raises(BoresightError, match="worker processes keep dying"):
+            study(small_study(), tmp_path / "runs.sqlite", executor=pool)
     assert (tmp_path / "runs.sqlite").exists()
 
 

@@ -55,7 +55,7 @@ def run_study(
     for other in merge:
         with Store.open(file) as store:
             added = store.absorb(other / RESULTS if other.is_dir() else other)
-        errors.print(f"{other}: {added:,} runs that were not here", highlight=False, markup=False)
+        errors.print(f"{other}: {added:,} runs that were not here", highlight=False, markup=False, soft_wrap=True)
     if summary:
         with Store.open(file, create=False) as store:
             found = summarise(asked, store)
@@ -89,6 +89,7 @@ def _run(asked: Study, file: Path, workers, scheduler, part: Shard, errors: Cons
         f"Interrupted; {done:,} of {len(asked):,} runs are kept in {file}. The same command goes on from there.",
         highlight=False,
         markup=False,
+        soft_wrap=True,
     )
     return True, None
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -66,34 +66,47 @@ def _benches(document: Document, entry: StudyEntry, problems: Problems) -> tuple
         bench = _bench_of_campaign(document, entry, problems)
         sensor = bench.cell.sensor
         return {bench.cell.arm.name: bench}, {"noise_std": sensor.noise_std, "repeats": sensor.repeats}
-    benches: dict[str, Bench] = {}
-    robots = entry.vary.robot or [entry.robot]
-    for place, robot in enumerate(robots):
+    for owner in ("base", "mount"):
+        if None in (getattr(entry, owner).xyz, getattr(entry, owner).rpy):
+            problems.add(f"{document.at((owner,))}got unknown; a study simulates the cell, so it must know its frames")
+    cells: dict[str, Cell] = {}
+    for place, robot in enumerate(entry.vary.robot or [entry.robot]):
         assert robot is not None
         where: KeyPath = ("vary", "robot", place) if entry.vary.robot else ("robot",)
         with problems.gathered():
-            bench = _own_bench(document, entry, robot, where, problems)
+            cell = cell_of(document, _campaign(entry, robot), {}, problems, where)
             name = robot.catalogue or Path(robot.file or "").stem
-            benches[str(robot.file) if name in benches else name] = bench
+            cells[str(robot.file) if name in cells else name] = cell
+    problems.raise_if_any()
+    benches = {name: _own_bench(document, entry, cell, tuple(cells.values()), problems) for name, cell in cells.items()}
     assert entry.sensor is not None
     metres = entry.units.value.metres
     return benches, {"noise_std": entry.sensor.noise_std * metres, "repeats": entry.sensor.repeats}
 
 
-def _own_bench(
-    document: Document, entry: StudyEntry, robot: RobotChoice, where: KeyPath, problems: Problems
-) -> Bench:
-    """Returns the bench of a study that describes its cell itself."""
+def _campaign(entry: StudyEntry, robot: RobotChoice | None) -> CampaignEntry:
+    """Returns the campaign that a study with one robot would be."""
     same = ("units", "sensor", "mount", "base", "targets", "estimate", "fixed")
-    campaign = CampaignEntry.model_construct(robot=robot, **{key: getattr(entry, key) for key in same})
-    for owner in ("base", "mount"):
-        if None in (getattr(entry, owner).xyz, getattr(entry, owner).rpy):
-            problems.add(f"{document.at((owner,))}got unknown; a study simulates the cell, so it must know its frames")
-    problems.raise_if_any()
-    cell = cell_of(document, campaign, {}, problems, where)
+    return CampaignEntry.model_construct(robot=robot, **{key: getattr(entry, key) for key in same})
+
+
+def _own_bench(document: Document, entry: StudyEntry, cell: Cell, cells: tuple[Cell, ...], problems: Problems) -> Bench:
+    """Returns the bench of a cell that the study describes; a pattern need not mean something in all of its cells."""
+
+    def kept(patterns: Sequence[str]) -> list[str]:
+        return [p for p in patterns if _reaches_any(p, (cell,)) or not _reaches_any(p, cells)]
+
+    campaign = _campaign(entry, None)
+    if len(cells) > 1:
+        lines = [line.model_copy(update={"parameters": kept(line.parameters)}) for line in entry.estimate or ()]
+        estimate = None if entry.estimate is None else [line for line in lines if line.parameters]
+        campaign = campaign.model_copy(update={"estimate": estimate, "fixed": kept(entry.fixed)})
     choice = Choice.of(document, campaign, cell, problems)
-    freedoms = choice.freedoms if choice.freedoms is not None else _usual(cell, choice.fixed)
-    return Bench(cell, freedoms)
+    return Bench(cell, _usual(cell, choice.fixed) if choice.freedoms is None else choice.freedoms)
+
+
+def _reaches_any(pattern: str, cells: Sequence[Cell]) -> bool:
+    return any(Matcher(cell).match(pattern).parameters for cell in cells)
 
 
 def _bench_of_campaign(document: Document, entry: StudyEntry, problems: Problems) -> Bench:
@@ -109,7 +122,8 @@ def _bench_of_campaign(document: Document, entry: StudyEntry, problems: Problems
             f"{place}{listed(sorted(campaign.unknown))} are unknown there; a study simulates the cell, so it must "
             "know its frames: calibrate first, or write down about where they are"
         )
-    fixed = campaign.fixed | {name for names in _fixed(document, entry.fixed, campaign.cell, problems) for name in names}
+    held = _fixed_in_all(document, ("fixed",), tuple(entry.fixed), {"": Bench(campaign.cell, ())}, problems)
+    fixed = campaign.fixed.union(held.names)
     freedoms = tuple(f for f in _freedoms(campaign) if f.parameter not in fixed)
     drawn = entry.rows is not None or entry.vary.rows is not None or campaign.readings is None
     if drawn or campaign.readings is None:
@@ -163,7 +177,16 @@ def _settings(
 ) -> Settings:
     """Returns the settings that are not varied."""
     own = next(iter(benches.values())).joints
-    same = ("validation_rows", "error_size", "gross_errors", "solver", "strategy", "population", "generations", "patience")
+    same = (
+        "validation_rows",
+        "error_size",
+        "gross_errors",
+        "solver",
+        "strategy",
+        "population",
+        "generations",
+        "patience",
+    )
     everything = len(next(iter(benches.values())).cell.targets)
     planes = entry.planes if entry.planes is not None else max(everything, 1)
     return Settings(
@@ -194,20 +217,11 @@ def _fixed_in_all(
     document: Document, where: KeyPath, patterns: tuple[str, ...], benches: Mapping[str, Bench], problems: Problems
 ) -> Chosen:
     """Returns the parameters that patterns mean in any of the cells."""
+    cells = [bench.cell for bench in benches.values()]
     reached: dict[str, None] = {}
-    for bench in benches.values():
-        for names in _fixed(document, patterns, bench.cell, problems, where):
-            reached |= dict.fromkeys(names)
-    return Chosen(", ".join(patterns) or "none", tuple(reached))
-
-
-def _fixed(
-    document: Document, patterns: tuple[str, ...] | list[str], cell: Cell, problems: Problems, where: KeyPath = ("fixed",)
-) -> list[tuple[str, ...]]:
-    matcher, found = Matcher(cell), []
     for place, pattern in enumerate(patterns):
-        names = matcher.match(pattern).parameters
+        names = [name for cell in cells for name in Matcher(cell).match(pattern).parameters]
+        reached |= dict.fromkeys(names)
         if not names:
-            problems.add(f"{document.at((*where, place))}{matcher.nothing(pattern)}")
-        found.append(names)
-    return found
+            problems.add(f"{document.at((*where, place))}{Matcher(cells[0]).nothing(pattern)}")
+    return Chosen(", ".join(patterns) or "none", tuple(reached))

@@ -108,9 +108,9 @@ class StudyEntry(Entry):
     sensor: SensorEntry | None = None
     mount: FrameEntry = FrameEntry()
     base: FrameEntry = FrameEntry()
-    targets: dict[Name, PlaneEntry] = {}
+    targets: dict[Name, PlaneEntry] = Field(default_factory=dict)
     estimate: list[FreedomEntry] | None = None
-    fixed: list[str] = []
+    fixed: list[str] = Field(default_factory=list)
     planes: Planes | None = None
     rows: Rows | None = None
     validation_rows: Rows = 20
@@ -125,7 +125,9 @@ class StudyEntry(Entry):
 
     @model_validator(mode="after")
     def _one_cell(self) -> StudyEntry:
-        own = [key for key in ("robot", "sensor", "targets", "mount", "base", "estimate") if key in self.model_fields_set]
+        own = [
+            key for key in ("robot", "sensor", "targets", "mount", "base", "estimate") if key in self.model_fields_set
+        ]
         if self.campaign is not None and (own or self.vary.robot):
             raise expected("either a campaign, or robot, sensor and targets of the study's own; the campaign has them")
         if self.campaign is None and self.sensor is None:

@@ -49,7 +49,9 @@ def print_study(console: Console, summary: Summary, folder: Path | None) -> None
     )
     table = _table(summary)
     if not console.is_terminal:  # what is piped has no width of its own: nothing is cut short
-        console.width = max(console.width, Measurement.get(console, console.options.update(max_width=1000), table).maximum)
+        console.width = max(
+            console.width, Measurement.get(console, console.options.update(max_width=1000), table).maximum
+        )
     console.print(table)
     console.print("  Position and angle of the tool at validation configurations, RMS: medians.")
     failures = [o.failure for each in summary.points for o in each.outcomes.values() if o.failure]

@@ -150,9 +150,7 @@ def _worded(axis: str, value: Any) -> str:
     return f"{TITLES[axis]} {shown(axis, value)}"
 
 
-def _panel(
-    axes: Axes, axis: str, title: str, lines: Sequence[Line], draw: Callable[..., None], what: str
-) -> None:
+def _panel(axes: Axes, axis: str, title: str, lines: Sequence[Line], draw: Callable[..., None], what: str) -> None:
     values = list(dict.fromkeys(each.point.label(axis) for _, line in lines for each in line))
     numeric = is_number(axis) and None not in values
     for place, (name, line) in enumerate(lines):

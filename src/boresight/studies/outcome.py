@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from typing import Any
 
 REACHED = 0.01
 """A search ended at the optimum where its root mean square is within this share of the optimum's."""
@@ -68,5 +69,6 @@ class Outcome:
     @classmethod
     def failed(cls, why: str, free: int) -> Outcome:
         """Returns the outcome of a run that could not be made."""
-        none = float("nan")
-        return cls(*[none] * 12, free, 0, 0, 0, 0, 0.0, why)
+        told = {"free": free, "failure": why}
+        none: dict[str, Any] = {"float": float("nan"), "int": 0, "str": ""}
+        return cls(**{field.name: told.get(field.name, none[str(field.type)]) for field in fields(cls)})

@@ -48,7 +48,9 @@ def _run(point: Point, seed: int) -> Outcome:
     problem = Problem(cell, readings, freedoms)
     solution = solve(problem, replace(point.solver, seed=seed))
     x_true = np.array([truth.values[name] - cell.values[name] for name in problem.names])
-    return _judged(solution, truth, problem.weighed((~planted).astype(float), 0.0), x_true, settings.validation_rows, seed)
+    return _judged(
+        solution, truth, problem.weighed((~planted).astype(float), 0.0), x_true, settings.validation_rows, seed
+    )
 
 
 def _judged(

@@ -11,7 +11,7 @@ from __future__ import annotations
 import contextlib
 import json
 import sqlite3
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import astuple, fields
 from pathlib import Path
 from typing import Any
@@ -59,7 +59,10 @@ class Store:
             raise InputError(f"{path}: there are no results yet; run the study without --summary first")
         try:
             connection = sqlite3.connect(
-                f"file:{quote(str(path))}?mode={'rwc' if create else 'rw'}", uri=True, timeout=PATIENCE_S, isolation_level=None
+                f"file:{quote(str(path))}?mode={'rwc' if create else 'rw'}",
+                uri=True,
+                timeout=PATIENCE_S,
+                isolation_level=None,
             )
         except sqlite3.Error as error:
             raise OutputError(f"{path}: it cannot be opened: {error}") from None
@@ -90,7 +93,7 @@ class Store:
         wanted = f"SELECT seed, {', '.join(_COLUMNS)} FROM runs WHERE point = ? AND seed < ? ORDER BY seed"
         with _explained(self.path):
             rows = self._file.execute(wanted, (point.key, seeds)).fetchall()
-        return {seed: Outcome(*(float("nan") if value is None else value for value in row)) for seed, *row in rows}
+        return {seed: _restored(row) for seed, *row in rows}
 
     def count(self, points: Collection[Point], seeds: int) -> int:
         """Returns how many runs of some points are done, below a number of seeds."""
@@ -153,9 +156,8 @@ def _prepare(connection: sqlite3.Connection, path: Path) -> None:
     columns = ", ".join(f"{field.name} {_TYPES[str(field.type)]}" for field in fields(Outcome))
     connection.execute("BEGIN IMMEDIATE")
     connection.execute("CREATE TABLE IF NOT EXISTS points (point TEXT PRIMARY KEY, settings TEXT) WITHOUT ROWID")
-    connection.execute(
-        f"CREATE TABLE IF NOT EXISTS runs (point TEXT, seed INTEGER, {columns}, PRIMARY KEY (point, seed)) WITHOUT ROWID"
-    )
+    columns = f"point TEXT, seed INTEGER, {columns}, PRIMARY KEY (point, seed)"
+    connection.execute(f"CREATE TABLE IF NOT EXISTS runs ({columns}) WITHOUT ROWID")
     connection.execute(f"PRAGMA application_id = {APPLICATION}")
     connection.execute(f"PRAGMA user_version = {VERSION}")
     connection.execute("COMMIT")
@@ -163,6 +165,12 @@ def _prepare(connection: sqlite3.Connection, path: Path) -> None:
 
 def _stored(outcome: Outcome) -> tuple[Any, ...]:
     return astuple(outcome)
+
+
+def _restored(row: Sequence[Any]) -> Outcome:
+    """Returns an outcome; sqlite keeps NaN as NULL."""
+    values: list[Any] = [float("nan") if value is None else value for value in row]
+    return Outcome(*values)
 
 
 @contextlib.contextmanager
