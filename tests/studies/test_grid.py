@@ -16,7 +16,7 @@ def test_a_grid_is_the_product_of_its_axes():
     found = [(each.settings.rows, each.settings.noise_std) for each in study.points]
     assert found == [(30, 1e-4), (30, 2e-4), (30, 4e-4), (45, 1e-4), (45, 2e-4), (45, 4e-4)]
     assert study.varied == ("rows", "noise_std")
-    assert len(study) == 30 == len(set((p.key, s) for p, s in study.runs()))
+    assert len(study) == 30 == len({(each.key, seed) for each, seed in study.runs()})
 
 
 def test_a_strategy_means_nothing_to_least_squares():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -73,7 +74,7 @@ def _benches(document: Document, entry: StudyEntry, problems: Problems) -> tuple
     for place, robot in enumerate(entry.vary.robot or [entry.robot]):
         assert robot is not None
         where: KeyPath = ("vary", "robot", place) if entry.vary.robot else ("robot",)
-        with problems.gathered():
+        with suppress(InputError):  # which are among the problems then
             cell = cell_of(document, _campaign(entry, robot), {}, problems, where)
             name = robot.catalogue or Path(robot.file or "").stem
             cells[str(robot.file) if name in cells else name] = cell

@@ -69,6 +69,6 @@ class Outcome:
     @classmethod
     def failed(cls, why: str, free: int) -> Outcome:
         """Returns the outcome of a run that could not be made."""
-        told = {"free": free, "failure": why}
+        told: dict[str, Any] = {"free": free, "failure": why}
         none: dict[str, Any] = {"float": float("nan"), "int": 0, "str": ""}
         return cls(**{field.name: told.get(field.name, none[str(field.type)]) for field in fields(cls)})
