@@ -1,8 +1,8 @@
 """Monte Carlo: 10,000 case-1 calibrations by evolution on two cores, and what two cores are worth.
 
 Everything that a study does is in the time: workers started, truth, configurations and readings drawn, 150 members
-through all of 500 generations (no early stop), 35 readings, 25 parameters, errors judged at validation configurations,
-the known optimum found for comparison, and every run committed to sqlite. Compiled code is on disk beforehand. The ratio
+through all of 500 generations (no early stop), 35 readings, 25 parameters, errors judged in validation configurations,
+the known optimum found for comparison, every run committed to sqlite. Compiled code is on disk beforehand. The ratio
 compares one worker and two on the same study, one after the other, in rounds; the best round counts for each.
 """
 
