@@ -114,11 +114,6 @@ class Problem:
         values = self.cell.predict(self.readings.joints, self.readings.target, self.corrections(x))
         return values - self.readings.values
 
-    def slopes(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels parameters"]:
-        """Returns the derivative of every predicted value by the free corrections; 0 where a beam misses."""
-        _, full = self.cell.linearise(self.readings.joints, self.readings.target, self.corrections(x))
-        return np.nan_to_num(full[:, :, self.columns], nan=0.0)
-
     def residual(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "residuals"]:
         """Returns errors over their standard deviations, then corrections over theirs (MAP)."""
         errors = np.nan_to_num(self.errors(x), nan=MISSED_M)
@@ -130,17 +125,12 @@ class Problem:
 
     def sensitivity(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "values parameters"]:
         """Returns the derivative of the weighed readings over their standard deviations, priors left out."""
-        return (self.slopes(x) * self._root_weight[:, :, None]).reshape(-1, len(self.columns))
+        return (self._slopes(x) * self._root_weight[:, :, None]).reshape(-1, len(self.columns))
 
     def leverage(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels"]:
         """Returns the variance of each predicted value after the fit over the variance of its error."""
-        return self.leverage_by(self.slopes(x))
-
-    def leverage_by(self, slopes: Float[np.ndarray, "rows channels parameters"]) -> Float[np.ndarray, "rows channels"]:
-        """Returns the same where the slopes are known, which do not depend on weights or standard deviations."""
-        scaled = slopes / self.std[:, :, None]
-        weighed = (slopes * self._root_weight[:, :, None]).reshape(-1, len(self.columns))
-        return np.sum((scaled @ posterior_covariance(weighed, self.prior_std)) * scaled, axis=2)
+        slopes = self._slopes(x) / self.std[:, :, None]
+        return np.einsum("rci,ij,rcj->rc", slopes, self.covariance(x), slopes, optimize=True)
 
     def covariance(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "parameters parameters"]:
         """Returns the posterior covariance of the free corrections."""
@@ -162,6 +152,10 @@ class Problem:
         weight = self.usual_std**2 / self.std**2
         program = compile_program(self.cell, self.names, self.usual_std**2 / self.prior_std**2, loss)
         return CompiledCost(program, compile_rows(self.cell, self.readings, weight))
+
+    def _slopes(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels parameters"]:
+        _, full = self.cell.linearise(self.readings.joints, self.readings.target, self.corrections(x))
+        return np.nan_to_num(full[:, :, self.columns], nan=0.0)
 
     @cached_property
     def _root_weight(self) -> Float[np.ndarray, "rows channels"]:

@@ -42,7 +42,6 @@ PLENTY = 20
 """With this many values for each parameter, falling weights find gross errors by themselves."""
 
 _SETTLED = 0.01
-_PRECISE = 1e-6
 _SOFT = 2.0
 _ORDINARY = 0.3
 
@@ -159,18 +158,23 @@ def _settled(
     """Returns the fit once the same rows stay, from a search that may have begun."""
     began, before = time.perf_counter(), search.seconds
     evaluations = 0 if search.seconds == 0.0 else search.evaluations
-    ratio, here = np.zeros(len(problem.readings)), _Here.of(problem, search.best)
+    ratio, met = np.zeros(len(problem.readings)), set()
     for round_ in range(rounds):
         soft = move and round_ < soft_rounds
-        weighed, ratio = _weighed(problem, here, soft=soft)
+        weighed, ratio = _weighed(problem, search.best, soft=soft)
         if weighed is None and (evaluations or not move):
             break
         problem = weighed or problem
+        if not move:
+            # Where nothing moves, what came once comes again: rows that go and come back would do so to the last round.
+            state = (problem.row_weight.tobytes(), problem.model_std)
+            if state in met:
+                break
+            met.add(state)
         if move:
             still_soft = soft and bool(np.any((problem.row_weight > 0.0) & (problem.row_weight < 1.0)))
             search = refine(problem, search.best, ROUGH if still_soft else THOROUGH)
             evaluations += search.evaluations
-            here = _Here.of(problem, search.best)
     cost = float(np.sum(problem.residual(search.best) ** 2))
     outcome = search.outcome if move else Outcome.CONVERGED
     seconds = before + time.perf_counter() - began
@@ -211,41 +215,29 @@ def _quantile(channels: int, probability: float) -> float:
     return float(np.sqrt(2.0 * special.gammaincinv(channels / 2.0, probability) / channels))
 
 
-@dataclass(frozen=True)
-class _Here:
-    """Errors and slopes at some corrections; weights and standard deviations change neither."""
-
-    errors: Float[np.ndarray, "rows channels"]
-    slopes: Float[np.ndarray, "rows channels parameters"]
-
-    @classmethod
-    def of(cls, problem: Problem, x: np.ndarray) -> _Here:
-        return cls(problem.errors(x), problem.slopes(x))
-
-
-def _weighed(problem: Problem, here: _Here, *, soft: bool) -> tuple[Problem | None, np.ndarray]:
+def _weighed(problem: Problem, x: np.ndarray, *, soft: bool) -> tuple[Problem | None, np.ndarray]:
     """Returns the problem with rows weighed anew by their residuals, or None where nothing changes; and their sizes."""
-    errors, channels = here.errors, problem.readings.values.shape[1]
-    factor = _studentising(problem, here.slopes)
+    errors, channels = problem.errors(x), problem.readings.values.shape[1]
+    factor = _studentising(problem, x)
     typical = _typical_excess(errors / factor, problem.readings.std)
     ratio = _sizes(errors / factor / np.hypot(problem.readings.std, typical))
     kept = ratio <= threshold(channels)
     if soft and not kept.all():
         return problem.weighed(1.0 / np.sqrt(1.0 + (ratio / _SOFT) ** 2), typical), ratio
     seen = np.isfinite(errors) & kept[:, None]
-    excess = model_std(errors[seen], problem.readings.std[seen], here.slopes.shape[2])
+    excess = model_std(errors[seen], problem.readings.std[seen], len(x))
     same_rows = np.array_equal(problem.row_weight, kept.astype(float))
     if same_rows and abs(excess - problem.model_std) <= _SETTLED * max(excess, problem.model_std):
         return None, ratio
     return problem.weighed(kept.astype(float), excess), ratio
 
 
-def _studentising(problem: Problem, slopes: np.ndarray) -> Float[np.ndarray, "rows channels"]:
+def _studentising(problem: Problem, x: np.ndarray) -> Float[np.ndarray, "rows channels"]:
     """Returns what a fit does to the standard deviation of a row's errors (Cook & Weisberg 1982).
 
     Those of a row that was fitted shrink by sqrt(1 - leverage), those of one left out grow by sqrt(1 + leverage).
     """
-    leverage = problem.leverage_by(slopes)
+    leverage = problem.leverage(x)
     fitted = (problem.row_weight > 0.0)[:, None]
     return np.sqrt(np.where(fitted, np.maximum(1.0 - leverage, 1e-3), 1.0 + leverage))
 
@@ -268,7 +260,7 @@ def _typical_excess(errors: Float[np.ndarray, "rows channels"], std: Float[np.nd
     if surplus(0.0) <= _ORDINARY * ordinary:
         return 0.0
     low, high = 0.0, float(np.nanmax(np.abs(errors), initial=1e-12)) / ordinary
-    while high - low > _PRECISE * high:
+    for _ in range(50):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if surplus(middle) > 0.0 else (low, middle)
     return high
