@@ -30,7 +30,7 @@ def test_a_calibration_beats_the_nominal_model_and_ends_at_the_optimum():
 
 def test_no_search_ends_below_the_optimum():
     outcomes = [run(point(solver="evolution", generations=40, population=40), seed) for seed in range(4)]
-    assert all(o.cost >= o.optimum * (1.0 - 1e-9) for o in outcomes)
+    assert all(o.cost >= o.optimum * (1.0 - 1e-8) for o in outcomes)
     assert not any(o.reached for o in outcomes)  # 40 generations are far from enough
     assert all(o.evaluations == 41 * 40 for o in outcomes)
 

@@ -21,6 +21,7 @@ def reference():
     return [(each.key, seed, run(each, seed).numbers) for each in asked.points for seed in range(asked.seeds)]
 
 
+@pytest.mark.long
 def test_numbers_are_the_same_on_one_worker_two_workers_and_threads(tmp_path, reference):
     asked = small_study()
     assert numbers(study(asked, tmp_path / "one.sqlite", workers=1)) == reference
@@ -106,6 +107,7 @@ def fail():
     raise OSError("the worker is gone")
 
 
+@pytest.mark.long
 def test_a_killed_worker_process_costs_nothing(tmp_path, reference, monkeypatch):
     path, killed = tmp_path / "runs.sqlite", []
 
