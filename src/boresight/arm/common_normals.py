@@ -69,11 +69,12 @@ def modified_dh(screws: Screws, parallel_below: float = NEARLY_PARALLEL) -> Arm:
 
 
 def axis_frame(axis: Sequence[float] | Float[np.ndarray, "3"]) -> Float[np.ndarray, "3 3"]:
-    """Returns the least rotation that turns z into a unit vector."""
+    """Returns a rotation that turns z into a unit vector: the least, or of vectors that look back the least after half
+    a turn about x, since near -z the least has no direction.
+    """
     x, y, z = (float(value) for value in axis)
-    if z < -1.0 + 1e-9 and math.hypot(x, y) < 1e-9:
-        # Half a turn about x, then the little that is left.
-        return axis_rotation(0, math.pi).round() @ axis_frame((x, -y, -z))
+    if z < 0.0:
+        return np.diag([1.0, -1.0, -1.0]) @ axis_frame((x, -y, -z))
     cross = np.array([[0.0, 0.0, x], [0.0, 0.0, y], [-x, -y, 0.0]])
     return np.eye(3) + cross + cross @ cross / (1.0 + z)
 

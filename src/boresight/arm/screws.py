@@ -92,7 +92,7 @@ def _exponential(joint: Screw, amount: Float[np.ndarray, "rows"]) -> Float[np.nd
     if joint.type == "prismatic":
         T[:, :3, 3] = amount[:, None] * axis
         return T
-    cross = np.cross(np.eye(3), -axis)
+    cross = np.cross(np.eye(3), axis)
     T[:, :3, :3] += np.sin(amount)[:, None, None] * cross + (1.0 - np.cos(amount))[:, None, None] * (cross @ cross)
     T[:, :3, 3] = point - T[:, :3, :3] @ point
     return T
