@@ -40,6 +40,16 @@ class Joint:
     follows: str | None = None
     ratio: float = 1.0
 
+    @property
+    def numbers(self) -> dict[str, float]:
+        """The five numbers of the link, by name [rad or m]."""
+        return {number: float(getattr(self, number)) for number in LINK_NUMBERS}
+
+    def with_numbers(self, numbers: Mapping[str, float]) -> Joint:
+        """Returns the joint with other numbers, all five by name [rad or m]."""
+        theta, d, a, alpha, beta = (numbers[number] for number in LINK_NUMBERS)
+        return replace(self, theta=theta, d=d, a=a, alpha=alpha, beta=beta)
+
 
 @dataclass(frozen=True)
 class Arm:
@@ -71,7 +81,7 @@ class Arm:
                 joint.type,
                 column[joint.follows or joint.name],
                 joint.name,
-                {n: getattr(joint, n) for n in LINK_NUMBERS},
+                joint.numbers,
                 joint.ratio if joint.follows else 1.0,
             )
         )
@@ -115,9 +125,8 @@ class Arm:
         return replace(
             self,
             joints=tuple(
-                replace(
-                    joint,
-                    **{n: getattr(joint, n) + corrections.get(f"{joint.name}.{n}", 0.0) for n in LINK_NUMBERS},
+                joint.with_numbers(
+                    {n: value + corrections.get(f"{joint.name}.{n}", 0.0) for n, value in joint.numbers.items()}
                 )
                 for joint in self.joints
             ),

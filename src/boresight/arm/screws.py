@@ -6,7 +6,7 @@ of an arm leads here and from here to every other.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -67,6 +67,18 @@ class Screws:
             reading = joints[:, column[joint.follows or joint.name]]
             T = T @ _exponential(joint, joint.ratio * reading if joint.follows else reading)
         return T @ self.home
+
+    def seen_from(self, T: Float[np.ndarray, "4 4"]) -> Screws:
+        """Returns the same arm in another base: `T_other_base`."""
+        joints = tuple(
+            replace(
+                joint,
+                axis=_triple(T[:3, :3] @ joint.axis),
+                point=_triple(T[:3, :3] @ joint.point + T[:3, 3]),
+            )
+            for joint in self.joints
+        )
+        return Screws(self.name, joints, T @ self.home)
 
 
 def screws_of(arm: Arm) -> Screws:

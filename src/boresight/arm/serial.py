@@ -18,6 +18,9 @@ from boresight.geometry import Frame, inverse, rpy_near
 
 LinkType = Literal["revolute", "prismatic", "fixed"]
 
+ROUNDING = 1e-15
+"""Numbers [m or rad] of an origin that differ by less are the same."""
+
 UNLIMITED = (-math.inf, math.inf)
 """The limits of a joint that has none."""
 
@@ -45,6 +48,10 @@ class SerialJoint:
     follows: str | None = None
     ratio: float = 1.0
     offset: float = 0.0
+
+    def placed(self, origin: Frame) -> SerialJoint:
+        """Returns the joint with another origin."""
+        return replace(self, origin=origin)
 
 
 @dataclass(frozen=True)
@@ -120,7 +127,7 @@ def corrected_chain(chain: SerialChain, nominal: Arm, identified: Arm) -> Serial
         nominal: its arm, `chain.arm`.
         identified: the same with other numbers.
     """
-    assert identified.root == nominal.root and identified.tip == nominal.tip, "root and tip are no parameters"
+    assert (identified.root, identified.tip) == (nominal.root, nominal.tip), "root and tip are no parameters"
     old = _places(chain)
     moving = [place for place, joint in enumerate(chain.joints) if joint.type != "fixed"]
     frames, changed = _new_frames(chain, [old[place] for place in moving], nominal, identified)
@@ -130,11 +137,18 @@ def corrected_chain(chain: SerialChain, nominal: Arm, identified: Arm) -> Serial
         at[len(chain.joints) - 1] = len(moving)
     for place, joint in enumerate(chain.joints):
         if place in at and changed[at[place]]:
-            origin = inverse(T) @ frames[at[place]]
-            x, y, z = (float(value) for value in origin[:3, 3])
-            new[place] = replace(joint, origin=Frame((x, y, z), rpy_near(origin[:3, :3], joint.origin.rpy)))
+            new[place] = joint.placed(_near(inverse(T) @ frames[at[place]], joint.origin))
         T = _beyond(joint, T @ new[place].origin.matrix)
     return replace(chain, joints=tuple(new))
+
+
+def _near(T: Float[np.ndarray, "4 4"], old: Frame) -> Frame:
+    """Returns a transform as the frame nearest to an old one, of whose numbers those stay that only rounding moves."""
+    parts = (T[:3, 3], old.xyz), (rpy_near(T[:3, :3], old.rpy), old.rpy)
+    (x, y, z), rpy = (
+        [float(a) if abs(a - b) > ROUNDING else b for a, b in zip(now, was, strict=True)] for now, was in parts
+    )
+    return Frame((x, y, z), (rpy[0], rpy[1], rpy[2]))
 
 
 def _new_frames(

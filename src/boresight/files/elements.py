@@ -90,7 +90,8 @@ class _Reading:
             raise self._refused(f"more than {MOST_ELEMENTS:,} elements; expected a description of a robot")
         if name.startswith("xacro:"):
             raise self._refused(
-                f"<{name[:60]}> is xacro, which URDF is made from; expand it first: xacro {self._source.name} > arm.urdf"
+                f"<{name[:60]}> is xacro, which URDF is made from; expand it first: "
+                f"xacro {self._source.name} > arm.urdf"
             )
         if self._depth > KEPT_DEPTH:
             return
@@ -108,7 +109,7 @@ class _Reading:
 
     def _declaration(self, version: str, encoding: str | None, standalone: int) -> None:
         try:
-            known = encoding is None or _ASCII_LIKE.fullmatch(codecs.lookup(encoding).name)
+            known = encoding is None or bool(_ASCII_LIKE.fullmatch(codecs.lookup(encoding).name))
         except LookupError:
             known = False
         if not known:

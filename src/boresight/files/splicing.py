@@ -13,9 +13,6 @@ from boresight.files.elements import Element, read_elements
 from boresight.files.sources import Source
 from boresight.geometry import Frame
 
-UNCHANGED = 1e-15
-"""Numbers [m or rad] that differ by less stay as the file has them: they differ by rounding."""
-
 _NAME = re.compile(rb"<[^\s/>]+")
 _ATTRIBUTE = re.compile(rb"""\s+([^\s=/>]+)\s*=\s*("[^"]*"|'[^']*')""")
 _WORD = re.compile(rb"\S+")
@@ -83,7 +80,7 @@ def _edits(content: bytes, joint: Element, old: SerialJoint, new: Frame) -> list
     tag = _tag_at(content, origins[0].start)
     edits = []
     for name, was, now in ((b"xyz", old.origin.xyz, new.xyz), (b"rpy", old.origin.rpy, new.rpy)):
-        if all(abs(a - b) < UNCHANGED for a, b in zip(was, now, strict=True)):
+        if was == now:
             continue
         if name in tag.values:
             start, end = tag.values[name]
@@ -100,7 +97,7 @@ def _renumbered(text: bytes, was: tuple[float, ...], now: tuple[float, ...]) -> 
     if len(words) != len(now) or b"&" in text:
         return _numbers(now)
     for word, a, b in reversed(list(zip(words, was, now, strict=True))):
-        if abs(a - b) >= UNCHANGED:
+        if a != b:
             text = text[: word.start()] + _numbers((b,)) + text[word.end() :]
     return text
 

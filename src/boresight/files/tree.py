@@ -102,7 +102,8 @@ def tree_of(root: Element, file: str) -> Tree:
     joints = _named(root.all("joint"), file, problems)
     if not links:
         problems.add(f"{file}: there are no links; expected <link name=...> and joints between them")
-    parent, above = {}, {}
+    parent: dict[str, str] = {}
+    above: dict[str, str] = {}
     for name, joint in joints.items():
         ends = [_end(joint, tag, links, file, problems) for tag in ("parent", "child")]
         if None in ends:

@@ -10,7 +10,7 @@ from boresight.arm.serial import UNLIMITED, SerialChain, SerialJoint
 from boresight.calibration.campaign import RobotFile
 from boresight.errors import InputError, did_you_mean
 from boresight.files.elements import Element, read_elements
-from boresight.files.problems import Problems, listed, shown
+from boresight.files.problems import Problems, shown
 from boresight.files.schemas import LARGEST, name_fault
 from boresight.files.sources import Source, read_source
 from boresight.files.tree import Tree, tree_of
