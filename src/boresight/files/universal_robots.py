@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -27,6 +28,7 @@ EXACT = 1e-9
 """An export whose forward kinematics is off by more [m or rad] is refused."""
 
 _STILL = 1e-12
+_FAR = 0.1
 
 
 @dataclass(frozen=True)
@@ -67,23 +69,28 @@ def universal_chain(nominal: Arm, identified: Arm) -> UniversalChain:
     return UniversalChain(*(_moved(chain, inverse(turn)) for chain in both))
 
 
-def kinematics_yaml(chain: UniversalChain, names: tuple[str, ...], header_comment: str) -> tuple[str, tuple[str, ...]]:
-    """Returns the text of a file for `kinematics_params_file`, and what a person should know.
+def universal_blocks(chain: UniversalChain) -> tuple[dict[str, Frame], tuple[str, ...]]:
+    """Returns the six transforms of a kinematics file, and what a person should know about them."""
+    *joints, tool = chain.identified.joints
+    notes = []
+    if not _is_nothing(tool.origin):
+        notes.append(
+            f"This format ends at the last joint. Behind it the tool stands at {_in_words(tool.origin)}: add that to "
+            "the tool's own transform."
+        )
+    return dict(zip(LINKS, (joint.origin for joint in joints), strict=True)), tuple(notes)
+
+
+def kinematics_yaml(blocks: Mapping[str, Frame], header_comment: str, notes: Sequence[str] = ()) -> str:
+    """Returns the text of a file for `kinematics_params_file`.
 
     Args:
-        chain: the arm, the tool's fixed joint last.
-        names: the block's keys.
+        blocks: each joint's frame in the one before, by the block's key.
         header_comment: lines to put above it.
+        notes: what a person should know, put there too.
     """
-    notes = []
-    *origins, tool = (joint.origin for joint in chain.identified.joints)
-    if not _is_nothing(tool):
-        notes.append(
-            f"This format ends at the last joint. Behind it the tool stands at {_in_words(tool)}: add that to the "
-            "tool's own transform."
-        )
     block = []
-    for name, origin in zip(names, origins, strict=True):
+    for name, origin in blocks.items():
         block.append(f"  {name}:")
         numbers = zip(("x", "y", "z", "roll", "pitch", "yaw"), (*origin.xyz, *origin.rpy), strict=True)
         block += [f"    {key}: {value + 0.0!r}" for key, value in numbers]
@@ -96,7 +103,7 @@ def kinematics_yaml(chain: UniversalChain, names: tuple[str, ...], header_commen
         *notes,
     ]
     text = [*(f"# {line}" for line in said), "kinematics:", *block, f"  hash: calib_{digits}"]
-    return "\n".join(text) + "\n", tuple(notes)
+    return "\n".join(text) + "\n"
 
 
 def calibration_conf(chain: UniversalChain, header_comment: str) -> str:
@@ -105,7 +112,8 @@ def calibration_conf(chain: UniversalChain, header_comment: str) -> str:
     Raises:
         InputError: D-H without beta cannot hold the arm to a nanometre, and why.
     """
-    before, after = _pure(chain.nominal), _pure(chain.identified)
+    before = _pure(chain.nominal)
+    after = _pure(chain.identified, before)
     error = _difference(after, chain.identified)
     if not error < EXACT:
         raise InputError(
@@ -115,9 +123,8 @@ def calibration_conf(chain: UniversalChain, header_comment: str) -> str:
     lines = [f"# {line}" for line in header_comment.splitlines()]
     lines.append("# Added to this nominal table (theta, d, a, alpha; rad and m):")
     lines += [f"#   {j.name}: {j.theta:.9g}, {j.d:.9g}, {j.a:.9g}, {j.alpha:.9g}" for j in before.joints]
-    lines.append(
-        "# Nearly parallel axes meet their common normal far away: large deltas of d that cancel are in order."
-    )
+    if any(abs(b.d - a.d) > _FAR for a, b in zip(before.joints, after.joints, strict=True)):
+        lines.append("# Nearly parallel axes meet their common normal far away: deltas of d that cancel are in order.")
     lines.append("[mounting]")
     for number in ("theta", "a", "d", "alpha"):
         deltas = [getattr(b, number) - getattr(a, number) for a, b in zip(before.joints, after.joints, strict=True)]
@@ -127,25 +134,33 @@ def calibration_conf(chain: UniversalChain, header_comment: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _pure(chain: SerialChain) -> Arm:
+def _pure(chain: SerialChain, like: Arm | None = None) -> Arm:
     """Returns an arm in D-H without beta, from UR's base to the tool, as nearly as it has such numbers."""
-    arm = standard_dh(chain.screws, parallel_below=0.0)
+    arm = standard_dh(chain.screws, 0.0, like)
     T = np.eye(4)
     for joint in arm.joints[:-1]:
         T = T @ link_transform(joint.theta, joint.d, joint.a, joint.alpha, 0.0)
     last = inverse(T) @ chain.screws.home
     theta = math.atan2(last[1, 0], last[0, 0])
+    if like is not None and abs(math.remainder(theta - like.joints[-1].theta, 2 * math.pi)) > math.pi / 2:
+        theta += math.pi
     a = math.cos(theta) * last[0, 3] + math.sin(theta) * last[1, 3]
     end = Joint(
         arm.joints[-1].name,
         theta=theta,
         d=float(last[2, 3]),
         a=float(a),
-        alpha=math.atan2(last[2, 1], last[2, 2]),
+        alpha=_alpha(last, theta),
         limits=arm.joints[-1].limits,
     )
     first = (Joint(j.name, theta=j.theta, d=j.d, a=j.a, alpha=j.alpha, limits=j.limits) for j in arm.joints[:-1])
     return Arm(arm.name, (*first, end))
+
+
+def _alpha(T, theta: float) -> float:
+    """Returns the alpha [rad] of Rz(theta) Rx(alpha)."""
+    across = math.cos(theta) * T[1, 1] - math.sin(theta) * T[0, 1]
+    return math.atan2(T[2, 1], across)
 
 
 def _difference(arm: Arm, chain: SerialChain) -> float:
@@ -187,5 +202,5 @@ def _is_nothing(frame: Frame) -> bool:
 
 
 def _in_words(frame: Frame) -> str:
-    xyz, rpy = (" ".join(f"{value:.9g}" for value in part) for part in (frame.xyz, frame.rpy))
+    xyz, rpy = (" ".join(f"{round(value, 12) + 0.0:.9g}" for value in part) for part in (frame.xyz, frame.rpy))
     return f"xyz {xyz} (m), rpy {rpy} (rad)"

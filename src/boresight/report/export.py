@@ -15,7 +15,13 @@ from boresight.arm.screws import Screws, screws_of
 from boresight.arm.serial import chain_of
 from boresight.errors import InputError
 from boresight.files.robots import dump_robot
-from boresight.files.universal_robots import LINKS, calibration_conf, is_universal, kinematics_yaml, universal_chain
+from boresight.files.universal_robots import (
+    calibration_conf,
+    is_universal,
+    kinematics_yaml,
+    universal_blocks,
+    universal_chain,
+)
 from boresight.files.urdf_writing import dump_urdf
 from boresight.geometry import Frame
 from boresight.report.stored import StoredResult
@@ -63,11 +69,13 @@ def export(stored: StoredResult, to: Format, convention: Convention | None = Non
         return Export(json.dumps(_document(stored), indent=2, ensure_ascii=False, allow_nan=False) + "\n")
     if to == "pal":
         return Export(_pal(stored))
+    if to == "ur-kinematics" and stored.origins and not is_universal(stored.nominal):
+        return _own_blocks(stored)
     chain = universal_chain(*(in_convention(arm, "standard-dh") for arm in (stored.nominal, stored.identified)))
     if to == "ur-calibration-conf":
         return Export(calibration_conf(chain, _comment(stored)))
-    names = LINKS if is_universal(stored.nominal) else tuple(joint.name for joint in stored.nominal.joints)
-    return Export(*kinematics_yaml(chain, names, _comment(stored)))
+    blocks, notes = universal_blocks(chain)
+    return Export(kinematics_yaml(blocks, _comment(stored), notes), notes)
 
 
 def in_convention(arm: Arm, convention: Convention) -> Arm:
@@ -116,6 +124,18 @@ def _pal(stored: StoredResult) -> str:
             deltas = zip(_DELTAS, was, now, strict=True)
             lines += [f"    {joint['joint']}_{delta}: {float(b) - float(a) + 0.0!r}" for delta, a, b in deltas]
     return "\n".join(lines) + "\n"
+
+
+def _own_blocks(stored: StoredResult) -> Export:
+    """Returns the block with the URDF's own joints and origins, as other makers' descriptions read it."""
+    new = {joint["joint"]: Frame(**joint["identified"]) for joint in stored.origins if joint["type"] != "fixed"}
+    notes = tuple(
+        f"The fixed joint {joint['joint']} is new too, and not in this format: xyz {joint['identified']['xyz']} (m), "
+        f"rpy {joint['identified']['rpy']} (rad)."
+        for joint in stored.origins
+        if joint["type"] == "fixed" and joint["nominal"] != joint["identified"]
+    )
+    return Export(kinematics_yaml(new, _comment(stored), notes), notes)
 
 
 def _document(stored: StoredResult) -> dict[str, Any]:
