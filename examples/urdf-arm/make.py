@@ -31,24 +31,27 @@ def true_urdf(text, random):
     for joint in JOINTS:
         block = re.search(rf'<joint name="{joint}" .*?</joint>', text, re.DOTALL)[0]
         origin = re.search(r"<origin [^>]*/>", block)
-        xyz, rpy = (
-            np.array(found[1].split(), dtype=float) if (found := re.search(rf"{key}=['\"]([^'\"]*)", block[: block.index("<axis")])) else np.zeros(3)
-            for key in ("xyz", "rpy")
-        )  # fmt: skip
+        xyz, rpy = (numbers(origin[0] if origin else "", key) for key in ("xyz", "rpy"))
         shift = random.uniform(-LARGEST_SHIFT_M, LARGEST_SHIFT_M, 3)
         turn = random.uniform(-LARGEST_TURN_RAD, LARGEST_TURN_RAD, 3)
         if joint == "turn":
             shift[:2] = turn[:2] = 0.0
         xyz, rpy = xyz + shift, rpy + turn
         origins[joint] = {"xyz": xyz.tolist(), "rpy": rpy.tolist()}
-        numbers = [" ".join(map(repr, part.tolist())) for part in (xyz, rpy)]
-        new = f'<origin xyz="{numbers[0]}" rpy="{numbers[1]}"/>'
+        words = [" ".join(map(repr, part.tolist())) for part in (xyz, rpy)]
+        new = f'<origin xyz="{words[0]}" rpy="{words[1]}"/>'
         text = text.replace(block, block.replace(origin[0], new) if origin else block.replace("<axis", f"{new}<axis"))
     return text, origins
 
 
+def numbers(origin, key):
+    """Returns the three numbers of an attribute, 0 where there is none."""
+    found = re.search(rf"{key}=['\"]([^'\"]*)", origin)
+    return np.array(found[1].split(), dtype=float) if found else np.zeros(3)
+
+
 class Cell:
-    """A URDF, the planes and the ranger in MuJoCo; plane k's two faces are in group k, the rest in none that is seen."""
+    """A URDF, the planes and the ranger in MuJoCo; plane k's two faces are in group k, which alone is seen."""
 
     def __init__(self, urdf):
         spec = mujoco.MjSpec.from_string(urdf)

@@ -96,9 +96,10 @@ def _joint(element: Element, tree: Tree, file: str, problems: Problems) -> Seria
 
 
 def _limits(reader: _Reader, kind: str) -> tuple[float, float]:
-    lower, upper = reader.number("limit", "lower", 0.0), reader.number("limit", "upper", 0.0)
-    if kind == "continuous" or not lower < upper:
-        return UNLIMITED  # revolute without limits, or with both 0, is how some tools write "none given"
+    lower, upper = (reader.number("limit", side, 0.0, most=math.inf) for side in ("lower", "upper"))
+    # Revolute without limits, with both 0, or with limits no joint reaches is how some tools write "none given".
+    if kind == "continuous" or not lower < upper or max(-lower, upper) > LARGEST:
+        return UNLIMITED
     return lower, upper
 
 
@@ -153,12 +154,12 @@ class _Reader:
         x, y, z = (number for number in numbers if number is not None)
         return x, y, z
 
-    def number(self, tag: str, attribute: str, default: float) -> float:
+    def number(self, tag: str, attribute: str, default: float, most: float = LARGEST) -> float:
         """Returns a number, or the default where the file gives none."""
         text = self._text(tag, attribute)
         if text is None:
             return default
-        number = _number(text.strip())
+        number = _number(text.strip(), most)
         if number is None:
             self._problems.add(f"{self._place}{tag} {attribute}: got {shown(text)}; expected a finite number")
             return default
@@ -172,8 +173,8 @@ class _Reader:
         return elements[0].attributes.get(attribute) if elements else None
 
 
-def _number(word: str) -> float | None:
+def _number(word: str, most: float = LARGEST) -> float | None:
     if not _NUMBER.fullmatch(word) or len(word) > 400:
         return None
     value = float(word)
-    return value if abs(value) <= LARGEST else None
+    return value if abs(value) <= most else None
