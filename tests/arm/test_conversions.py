@@ -12,6 +12,7 @@ from boresight.arm.common_normals import axis_frame, modified_dh, standard_dh
 from boresight.arm.screws import Screw, Screws, screws_of
 from boresight.arm.serial import chain_of
 from boresight.geometry import Frame
+from factory_arms import ALPHA, FACTORY, factory_arm
 from random_cells import CONVENTIONS, random_arm, random_frame, random_joints
 
 EXACT = 1e-12
@@ -105,59 +106,6 @@ def test_an_axis_frame_has_its_z_along_the_axis(direction):
     R = axis_frame(axis)
     np.testing.assert_allclose(R[:, 2], axis, atol=1e-15)
     np.testing.assert_allclose(R @ R.T, np.eye(3), atol=1e-14)
-
-
-FACTORY = {
-    # Deltas to nominal D-H from three controllers' calibration.conf, as ur_calibration's own tests have them
-    # (Universal_Robots_ROS2_Driver, ur_calibration/test/calibration_test.cpp): d [m], a [m], theta, alpha [rad].
-    "ur10": (
-        (0.1273, 0, 0, 0.163941, 0.1157, 0.0922),
-        (0, -0.612, -0.5723, 0, 0, 0),
-        (0.00065609212979853, 1.4442162376284788, 0.854147723854608, -2.2989425877563705, -1.573498686836816e-05,
-         1.9072435590711256e-05),
-        (4.6311376834935676e-05, -0.00012568315331862312, 0.00186216581161458, 9.918593870679266e-05,
-         4.215462720453189e-06, 0),
-        (-7.290070070824746e-05, -0.01713897289704999, -0.03707159413492756, 0.054279462160583214,
-         1.488984257025741e-07, 1.551499479707493e-05),
-        (0.000211987863869334, -0.0072553625957652995, -0.013483226769541364, 0.0013495820227329425,
-         -0.001263136163679901, 0),
-    ),
-    "ur10e, 303 m": (
-        (0.1807, 0, 0, 0.17415, 0.11985, 0.11655),
-        (0, -0.6127, -0.57155, 0, 0, 0),
-        (-0.000144894975118076141, 303.469135666158195, -309.88394307789747, 6.41459904397394975,
-         -4.48232900190081995e-05, -0.00087071402790364627),
-        (0.000108651068627930392, 0.240324175250532346, 0.00180628180213493472, 2.63076149165684402e-05,
-         3.96638632500012715e-06, 0),
-        (1.59613525316931737e-07, -0.917209621528830232, 7.12936131346499469, 0.0710299029424392298,
-         -1.64258976526054923e-06, 9.17286101034808787e-08),
-        (-0.000444781952841921679, -0.00160215112531214153, 0.00631917793331091861, -0.00165055247340828437,
-         0.000763682515545038854, 0),
-    ),
-    "ur10e, 439 m": (
-        (0.1807, 0, 0, 0.17415, 0.11985, 0.11655),
-        (0, -0.6127, -0.57155, 0, 0, 0),
-        (-0.000160188285741325043, 439.140974079900957, -446.027059806332147, 6.88618689642360149,
-         -3.86588496858186748e-05, -0.00087908274257374186),
-        (2.12234865571205891e-05, 0.632017132627700651, 0.00229833638891230319, -4.61409023720933908e-05,
-         -6.39280053471801522e-05, 0),
-        (-2.41478068943590252e-07, 1.60233952386694556, -1.68607190752171299, 0.0837331147700118711,
-         -1.01260355871157781e-07, 3.91986209186123702e-08),
-        (-0.000650246557584166496, 0.00139416666825590402, 0.00693818880325995126, -0.000811641562390219562,
-         0.000411120504570705592, 0),
-    ),
-}  # fmt: skip
-ALPHA = (math.pi / 2, 0, 0, math.pi / 2, -math.pi / 2, 0)
-
-
-def factory_arm(name):
-    d, a, *deltas = FACTORY[name]
-    nominal = zip(ALPHA, d, a, *deltas, strict=True)
-    joints = tuple(
-        Joint(f"j{k}", theta=dtheta, d=d + dd, a=float(a + da), alpha=float(alpha + dalpha))
-        for k, (alpha, d, a, dd, da, dtheta, dalpha) in enumerate(nominal, start=1)
-    )
-    return Arm(name, joints)
 
 
 @pytest.mark.parametrize("name", FACTORY)

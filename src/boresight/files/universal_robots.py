@@ -140,27 +140,20 @@ def _pure(chain: SerialChain, like: Arm | None = None) -> Arm:
     T = np.eye(4)
     for joint in arm.joints[:-1]:
         T = T @ link_transform(joint.theta, joint.d, joint.a, joint.alpha, 0.0)
+    # The tool's x and z are given, so the last theta has no other way round.
     last = inverse(T) @ chain.screws.home
     theta = math.atan2(last[1, 0], last[0, 0])
-    if like is not None and abs(math.remainder(theta - like.joints[-1].theta, 2 * math.pi)) > math.pi / 2:
-        theta += math.pi
     a = math.cos(theta) * last[0, 3] + math.sin(theta) * last[1, 3]
     end = Joint(
         arm.joints[-1].name,
         theta=theta,
         d=float(last[2, 3]),
         a=float(a),
-        alpha=_alpha(last, theta),
+        alpha=math.atan2(last[2, 1], math.cos(theta) * last[1, 1] - math.sin(theta) * last[0, 1]),
         limits=arm.joints[-1].limits,
     )
     first = (Joint(j.name, theta=j.theta, d=j.d, a=j.a, alpha=j.alpha, limits=j.limits) for j in arm.joints[:-1])
     return Arm(arm.name, (*first, end))
-
-
-def _alpha(T, theta: float) -> float:
-    """Returns the alpha [rad] of Rz(theta) Rx(alpha)."""
-    across = math.cos(theta) * T[1, 1] - math.sin(theta) * T[0, 1]
-    return math.atan2(T[2, 1], across)
 
 
 def _difference(arm: Arm, chain: SerialChain) -> float:

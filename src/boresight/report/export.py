@@ -128,7 +128,10 @@ def _pal(stored: StoredResult) -> str:
 
 def _own_blocks(stored: StoredResult) -> Export:
     """Returns the block with the URDF's own joints and origins, as other makers' descriptions read it."""
-    new = {joint["joint"]: Frame(**joint["identified"]) for joint in stored.origins if joint["type"] != "fixed"}
+    moving = (joint for joint in stored.origins if joint["type"] != "fixed")
+    new = {
+        joint["joint"]: Frame(tuple(joint["identified"]["xyz"]), tuple(joint["identified"]["rpy"])) for joint in moving
+    }
     notes = tuple(
         f"The fixed joint {joint['joint']} is new too, and not in this format: xyz {joint['identified']['xyz']} (m), "
         f"rpy {joint['identified']['rpy']} (rad)."
