@@ -27,8 +27,10 @@ _HOME = {
     "Result": "boresight.calibration",
     "Solver": "boresight.calibration",
     "calibrate": "boresight.calibration",
+    "export": "boresight.report.export",
     "inspect": "boresight.calibration",
     "load_campaign": "boresight.files",
+    "load_result": "boresight.report.stored",
     "load_robot": "boresight.files",
     "simulate": "boresight.calibration",
     "write_result": "boresight.report",
@@ -51,6 +53,8 @@ if TYPE_CHECKING:
     from boresight.files import load_campaign as load_campaign
     from boresight.files import load_robot as load_robot
     from boresight.report import write_result as write_result
+    from boresight.report.export import export as export
+    from boresight.report.stored import load_result as load_result
     from boresight.sensing import Cell as Cell
 
 

@@ -105,7 +105,8 @@ class Arm:
     @property
     def reach(self) -> float:
         """An upper bound [m] on the distance of the tool from the base."""
-        most = {joint.name: max(map(abs, joint.limits)) for joint in self.joints}
+        # A joint without limits that a sliding one follows: a turn either way will do.
+        most = {j.name: 2.0 * math.pi if math.isinf(j.limits[0]) else max(map(abs, j.limits)) for j in self.driven}
         sliding = sum(
             abs(joint.ratio) * most[joint.follows or joint.name] for joint in self.joints if joint.type == "prismatic"
         )

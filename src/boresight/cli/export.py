@@ -10,7 +10,7 @@ from boresight.cli.consoles import silence_output
 from boresight.errors import InputError, OutputError
 from boresight.files.writing import write_atomically
 from boresight.report.export import Format, export
-from boresight.report.stored import read_result
+from boresight.report.stored import load_result
 
 
 def run_export(
@@ -27,7 +27,7 @@ def run_export(
         raise InputError(f"--convention: it is for --to dh, and this is --to {to}")
     if output is not None and output.exists() and not overwrite:
         raise OutputError(f"{output}: is there already; nothing is overwritten without --overwrite")
-    stored = read_result(result)
+    stored = load_result(result)
     if not stored.accepted and not even_if_rejected:
         raise InputError(
             f"{stored.folder}: this result was rejected. {' '.join(stored.reasons)} "

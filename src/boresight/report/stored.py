@@ -44,7 +44,7 @@ class StoredResult:
     origins: tuple[Mapping[str, Any], ...]
 
 
-def read_result(folder: Path) -> StoredResult:
+def load_result(folder: Path) -> StoredResult:
     """Returns what a folder that `write_result` wrote says of its arm.
 
     Raises:
