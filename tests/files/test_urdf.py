@@ -211,6 +211,26 @@ def test_too_many_elements_are_refused():
     assert "more than 200,000 elements" in problem
 
 
+LINKS = 20_000
+MANY = {
+    "bad links": ("j", lambda i: (f"x{i}", f"l{i + 1}"), "there is no parent link 'x0'"),
+    "a long chain": ("k", lambda i: (f"l{i}", f"l{i + 1}"), "more than 100 joints move between l0 and l"),
+    "a wide tree": ("k", lambda i: (f"l{i // 2}", f"l{i + 1}"), "links could be the tip, l"),
+    "a loop": ("k", lambda i: (f"l{i}", f"l{(i + 1) % LINKS}"), "leads back to itself"),
+}
+
+
+@pytest.mark.parametrize("name", MANY)
+def test_thousands_of_faults_take_seconds(name):
+    letter, ends, said = MANY[name]
+    links = "".join(f'<link name="l{i}"/>' for i in range(LINKS))
+    count = LINKS if name == "a loop" else LINKS - 1
+    body = "".join(joint(f"{letter}{i}", *ends(i)) for i in range(count))
+    started = time.perf_counter()
+    assert said in problems(f"<robot>{links}{body}</robot>")[0]
+    assert time.perf_counter() - started < 20.0
+
+
 def test_a_large_file_is_refused_unread(tmp_path):
     path = tmp_path / "big.urdf"
     with open(path, "wb") as file:

@@ -110,9 +110,10 @@ def chain_of(arm: Arm, base: str = "base_link", tip: str = "tool0") -> SerialCha
             SerialJoint(joint.name, joint.type, origin, limits=joint.limits, follows=joint.follows, ratio=joint.ratio)
         )
         before = link_transform(0.0, 0.0, joint.a, joint.alpha, joint.beta)
-    return SerialChain(
-        arm.name, base, tip, (*joints, SerialJoint(f"{tip}_joint", "fixed", Frame.of(before @ arm.tip.matrix)))
-    )
+    end = f"{tip}_joint"
+    while any(joint.name == end for joint in joints):
+        end += "_"
+    return SerialChain(arm.name, base, tip, (*joints, SerialJoint(end, "fixed", Frame.of(before @ arm.tip.matrix))))
 
 
 def corrected_chain(chain: SerialChain, nominal: Arm, identified: Arm) -> SerialChain:

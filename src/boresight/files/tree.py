@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
+from itertools import islice
 
 from boresight.errors import InputError, did_you_mean
 from boresight.files.elements import Element
 from boresight.files.problems import Problems, listed, printable, shown
+
+_COMPARED = 500
 
 
 @dataclass
@@ -59,7 +63,7 @@ class Tree:
     def _link(self, role: str, name: str) -> str:
         if name not in self.links:
             raise self._refused(
-                f"there is no link {shown(name)} for the {role}{did_you_mean(name[:60], self.links)}; "
+                f"there is no link {shown(name)} for the {role}{nearest(name, self.links)}; "
                 f"the links are {listed(self.links)}"
             )
         return name
@@ -71,8 +75,16 @@ class Tree:
         return roots[0]
 
     def _only_leaf(self, base: str) -> str:
-        inner = set(self.parent.values())
-        leaves = [link for link in self.links if link not in inner and base in self._ancestors(link)]
+        behind: dict[str, list[str]] = {}
+        for link, joint in self.above.items():
+            behind.setdefault(self.parent[joint], []).append(link)
+        reached, ends = [base], set()
+        while reached:
+            further = behind.get(reached[-1], [])
+            if not further:
+                ends.add(reached[-1])
+            reached[-1:] = further
+        leaves = [link for link in self.links if link in ends]
         if len(leaves) != 1:
             raise self._refused(
                 f"{len(leaves)} links could be the tip, {listed(leaves)}; name one that carries the sensor: "
@@ -89,6 +101,11 @@ class Tree:
 
     def _refused(self, why: str) -> InputError:
         return InputError(printable(f"{self.file}: {why}"))
+
+
+def nearest(name: str, known: Collection[str]) -> str:
+    """Returns " (did you mean X?)" for the nearest of the first names; a file may hold a hundred thousand."""
+    return did_you_mean(name[:60], islice(known, _COMPARED))
 
 
 def tree_of(root: Element, file: str) -> Tree:
@@ -142,7 +159,8 @@ def _end(joint: Element, tag: str, links: dict[str, Element], file: str, problem
         return None
     link = ends[0].attributes.get("link", "")
     if link not in links:
-        problems.add(f"{place}there is no {tag} link {shown(link)}{did_you_mean(link[:60], links)}")
+        near = "" if problems.full else nearest(link, links)
+        problems.add(f"{place}there is no {tag} link {shown(link)}{near}")
         return None
     return link
 

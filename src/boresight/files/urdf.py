@@ -10,13 +10,16 @@ from boresight.arm.serial import UNLIMITED, SerialChain, SerialJoint
 from boresight.calibration.campaign import RobotFile
 from boresight.errors import InputError, did_you_mean
 from boresight.files.elements import Element, read_elements
-from boresight.files.problems import Problems, shown
+from boresight.files.problems import Problems, printable, shown
 from boresight.files.schemas import LARGEST, name_fault
 from boresight.files.sources import Source, read_source
-from boresight.files.tree import Tree, tree_of
+from boresight.files.tree import Tree, nearest, tree_of
 from boresight.geometry import Frame
 
 LIMIT_MIB = 16
+MOST_MOVING = 100
+"""Joints between base and tip; arms have six or seven, snakes some dozens."""
+
 SUFFIXES = (".urdf", ".xacro", ".xml")
 """How the names of descriptions end; anything else is read as a robot.yaml."""
 
@@ -52,15 +55,21 @@ def robot_file_of(source: Source, base: str | None = None, tip: str | None = Non
     """Returns a URDF whose bytes are at hand; see `read_urdf`."""
     root = read_elements(source)
     if root.name != "robot":
-        raise InputError(f"{source.name}, line {root.line}: <{root.name[:60]}> is not URDF; expected <robot>")
+        raise InputError(
+            printable(f"{source.name}, line {root.line}: <{root.name[:60]}> is not URDF; expected <robot>")
+        )
     tree = tree_of(root, source.name)
     base, tip, joints = tree.chain(base, tip)
+    if sum(element.attributes.get("type") != "fixed" for element in joints) > MOST_MOVING:
+        raise InputError(printable(f"{source.name}: more than {MOST_MOVING} joints move between {base} and {tip}"))
     problems = Problems()
     read = [_joint(element, tree, source.name, problems) for element in joints]
     problems.raise_if_any()
     joints_read = tuple(joint for joint in read if joint is not None)
     if all(joint.type == "fixed" for joint in joints_read):
-        raise InputError(f"{source.name}: no joint from {base} to {tip} moves; expected an arm between base and tip")
+        raise InputError(
+            printable(f"{source.name}: no joint from {base} to {tip} moves; expected an arm between base and tip")
+        )
     title = root.attributes.get("name", "").strip()
     chain = SerialChain(title if title.isprintable() and title else Path(source.name).stem, base, tip, joints_read)
     return RobotFile(source.name, source.content, _following(chain, tree, source.name))
@@ -117,7 +126,7 @@ def _following(chain: SerialChain, tree: Tree, file: str) -> SerialChain:
             ratio *= reader.number("mimic", "multiplier", 1.0)
             name = mimic[0].attributes.get("joint", "")
             if name not in tree.joints:
-                problems.add(f"{place}there is no joint {shown(name)}{did_you_mean(name[:60], tree.joints)}")
+                problems.add(f"{place}there is no joint {shown(name)}{nearest(name, tree.joints)}")
             elif name in seen:
                 problems.add(f"{place}{name} mimics itself, round about; expected a joint with a reading of its own")
             if problems or name in seen:
@@ -146,7 +155,7 @@ class _Reader:
         text = self._text(tag, attribute)
         if text is None:
             return default
-        words = text.split()
+        words = text.split(maxsplit=3)  # what is left of a long text is not looked at
         numbers = [_number(word) for word in words]
         if len(words) != 3 or None in numbers:
             self._problems.add(f"{self._place}{tag} {attribute}: got {shown(text)}; expected 3 finite numbers")

@@ -113,7 +113,7 @@ def _pal(stored: StoredResult) -> str:
             "calibrate with robot: {urdf: ...}, or export to urdf"
         )
     lines = [
-        f"# {_comment(stored)}",
+        *(f"# {line}" for line in _comment(stored).splitlines()),
         "# Added to the origins of the URDF that was calibrated: metres, and radians of roll, pitch and yaw.",
         "robot_state_publisher:",
         "  geometric_calibration:",
