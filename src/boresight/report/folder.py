@@ -62,7 +62,10 @@ def write_result(result: Result, folder: Path, version: str) -> Path:
         chosen.mkdir(parents=True, exist_ok=True)
         with _staging(chosen) as staging:
             for name, content in contents.items():
-                (staging / name).write_bytes(content.encode("utf-8") if isinstance(content, str) else content)
+                if isinstance(content, bytes):
+                    (staging / name).write_bytes(content)
+                else:
+                    (staging / name).write_text(content, encoding="utf-8", newline="\n")
             if URDF_FILE not in contents:
                 (chosen / URDF_FILE).unlink(missing_ok=True)  # an earlier result's, which is not this arm
             for name in contents:
