@@ -123,7 +123,7 @@ def main():
         "validation_position": [position.tolist() for _, _, _, position, _ in validation],
         "validation_rotation": [rotation.tolist() for _, _, _, _, rotation in validation],
     }
-    (FOLDER / "truth.json").write_text(json.dumps(truth, indent=1) + "\n")
+    (FOLDER / "truth.json").write_text(json.dumps(truth) + "\n")
 
 
 if __name__ == "__main__":
