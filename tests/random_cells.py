@@ -55,7 +55,7 @@ def random_cell(
 def random_joints(rng: np.random.Generator, arm: Arm, rows: int) -> np.ndarray:
     """Returns configurations within the arm's limits."""
     lowest, highest = arm.limits.T
-    return rng.uniform(lowest, highest, (rows, len(arm.joints)))
+    return rng.uniform(lowest, highest, (rows, len(lowest)))
 
 
 def random_targets(rng: np.random.Generator, cell: Cell, rows: int) -> np.ndarray:

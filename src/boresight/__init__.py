@@ -29,9 +29,10 @@ _HOME = {
     "Solver": "boresight.calibration",
     "calibrate": "boresight.calibration",
     "compensate": "boresight.compensation",
+    "export": "boresight.report.export",
     "inspect": "boresight.calibration",
     "load_campaign": "boresight.files",
-    "load_result": "boresight.files",
+    "load_result": "boresight.report.stored",
     "load_robot": "boresight.files",
     "reproduce": "boresight.reproduction",
     "load_study": "boresight.files",
@@ -57,10 +58,11 @@ if TYPE_CHECKING:
     from boresight.errors import BoresightError as BoresightError
     from boresight.errors import InputError as InputError
     from boresight.files import load_campaign as load_campaign
-    from boresight.files import load_result as load_result
     from boresight.files import load_robot as load_robot
     from boresight.files import load_study as load_study
     from boresight.report import write_result as write_result
+    from boresight.report.export import export as export
+    from boresight.report.stored import load_result as load_result
     from boresight.reproduction import reproduce as reproduce
     from boresight.sensing import Cell as Cell
     from boresight.studies import study as study

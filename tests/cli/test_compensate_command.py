@@ -102,4 +102,4 @@ def test_a_folder_that_is_no_result_is_refused(boresight, calibrated):
     assert said.code == 1
     assert "rejected" in said.err
     (calibrated / "result" / "result.json").write_text("[]")
-    assert "not a result" in boresight("compensate", "result", "program.csv").err
+    assert "expected boresight-result" in boresight("compensate", "result", "program.csv").err

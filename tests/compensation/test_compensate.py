@@ -123,3 +123,33 @@ def test_something_must_be_asked_for():
     arm = catalogue.load("ur10")
     with pytest.raises(ValueError, match="joints, poses or both"):
         compensate(arm, arm)
+
+
+def test_a_joint_that_follows_another_moves_with_it():
+    arm = Arm(
+        "palletiser",
+        (
+            Joint("j1", d=0.4, alpha=-np.pi / 2),
+            Joint("j2", a=0.5),
+            Joint("j3", a=0.5),
+            Joint("level", follows="j2", ratio=-1.0),
+            Joint("j4", a=0.1, alpha=0.4),
+        ),
+    )
+    real = arm.corrected({"j2.a": 0.003, "j3.theta": 0.004, "j1.theta": -0.002})
+    found = compensate(arm, real, joints=np.array([[0.3, -0.8, 1.1, 0.2], [0.1, -0.5, 0.9, -0.4]]), position_only=True)
+    assert np.all(found.reached == Reached.YES)
+    off = real.forward_kinematics(found.joints)[:, :3, 3] - found.poses[:, :3, 3]
+    assert np.abs(off).max() < 1e-9
+
+
+def test_a_joint_without_limits_may_turn_on():
+    arm = catalogue.load("puma560")
+    free = Arm("free", tuple(Joint(**{**vars_of(joint), "limits": (-np.inf, np.inf)}) for joint in arm.joints))
+    found = compensate(free, bent(free), joints=program(arm, 20) + 2 * np.pi)
+    assert (found.reached <= Reached.NEAR_SINGULAR).mean() > 0.8
+    assert np.abs(found.moved[found.reached == Reached.YES]).max() < np.pi
+
+
+def vars_of(joint):
+    return {name: getattr(joint, name) for name in ("name", "type", "theta", "d", "a", "alpha", "beta")}

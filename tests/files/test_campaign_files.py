@@ -147,9 +147,44 @@ def test_an_arm_that_is_not_in_the_catalogue_names_the_nearest_one(folder, campa
     assert "the catalogue has no arm 'ur11' (did you mean ur10?); expected one of " in problem
 
 
-@pytest.mark.parametrize("robot", ["{urdf: a.urdf, base: b, tip: t}", "arm.urdf"])
-def test_a_urdf_robot_is_not_supported_yet(folder, campaign_with, robot):
-    assert "URDF robots are not supported yet" in folder.write(campaign=campaign_with(("robot.yaml", robot))).problem()
+URDF = """<robot name="two"><link name="base"/><link name="one"/><link name="two"/><link name="tool"/>
+<joint name="j1" type="revolute"><origin xyz="0 0 0.3"/><parent link="base"/><child link="one"/><axis xyz="0 0 1"/>
+<limit lower="-1" upper="2"/></joint>
+<joint name="j2" type="continuous"><origin xyz="0.1 0 0"/><parent link="one"/><child link="two"/></joint>
+<joint name="end" type="fixed"><origin xyz="0.4 0 0"/><parent link="two"/><child link="tool"/></joint></robot>"""
+
+
+@pytest.mark.parametrize("robot", ["{urdf: arm.urdf, base: base, tip: tool}", "arm.urdf", "{urdf: arm.urdf}"])
+def test_a_robot_can_be_a_urdf(folder, campaign_with, robot):
+    folder.write(campaign=campaign_with(("robot.yaml", robot)), **{"arm.urdf": URDF})
+    campaign = folder.load()
+    assert campaign.cell.arm.joint_names == ("j1", "j2")
+    assert campaign.robot_file.content == URDF.encode()
+    assert campaign.inputs["arm.urdf"] == hashlib.sha256(URDF.encode()).hexdigest()
+    assert campaign.fixed == {"j1.theta"}
+
+
+def test_what_a_urdf_cannot_hold_behind_its_last_joint_is_held(folder, campaign_with):
+    folder.write(campaign=campaign_with(("robot.yaml", "{urdf: arm.urdf, tip: two}")), **{"arm.urdf": URDF})
+    campaign = folder.load()
+    assert campaign.fixed == {"j1.theta", "j2.a", "j2.alpha", "j2.beta"}
+    assert campaign.notes[-1].startswith("j2.a, .alpha and .beta are held: two is the link that j2 moves")
+
+
+def test_a_urdf_that_is_missing_is_told_with_the_line_that_names_it(folder, campaign_with):
+    problem = folder.write(campaign=campaign_with(("robot.yaml", "{urdf: arm.urdf}"))).problem()
+    assert problem == "campaign.yaml, line 1: robot: arm.urdf: there is no such file; expected a URDF file"
+
+
+@pytest.mark.parametrize("robot", ["{urdf: a.urdf, catalogue: ur10}", "{base: b}", "{}", "[a.urdf]"])
+def test_a_robot_comes_from_one_place(folder, campaign_with, robot):
+    problem = folder.write(campaign=campaign_with(("robot.yaml", robot))).problem()
+    assert "expected the name of a robot.yaml or of a URDF, {catalogue: NAME}, or {urdf: arm.urdf, " in problem
+
+
+def test_base_and_tip_are_for_urdfs(folder, campaign_with):
+    problem = folder.write(campaign=campaign_with(("robot.yaml", "{catalogue: ur10, tip: tool0}"))).problem()
+    assert "expected base and tip beside a urdf only" in problem
 
 
 def test_paths_are_relative_to_the_campaign(folder, monkeypatch, tmp_path_factory):

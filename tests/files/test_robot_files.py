@@ -8,6 +8,7 @@ import pytest
 from boresight.arm import Arm, Joint
 from boresight.errors import InputError
 from boresight.files import dump_robot, load_robot
+from boresight.geometry import Frame
 
 
 @pytest.fixture
@@ -62,10 +63,10 @@ def test_all_faults_of_a_robot_are_told_at_once(problems, robot_with):
         "robot.yaml, line 5: joints[1].name: 'j1' is the name of an earlier joint; expected another",
         "robot.yaml, line 2: units.length: got 'inch'; expected one of m, mm",
         "robot.yaml, line 4: joints[0].limits: got [170, -170]; expected two finite numbers, "
-        "the lower limit and then the upper: [-170, 170]",
+        "the lower limit and then the upper: [-170, 170]; or none",
         "robot.yaml, line 5: joints[1].a: got '400'; expected a number",
         "robot.yaml, line 5: joints[1].bta: unknown key (did you mean beta?); "
-        "expected one of name, type, theta, d, a, alpha, beta, limits",
+        "expected one of name, type, theta, d, a, alpha, beta, limits, follows, ratio",
     )
 
 
@@ -86,9 +87,34 @@ def test_an_arm_has_a_joint(problems):
     assert problem == "robot.yaml, line 2: joints: got []; expected a list of at least 1"
 
 
-def test_a_urdf_is_named_as_not_supported():
-    with pytest.raises(InputError, match=r"arm\.urdf: URDF robots are not supported yet"):
-        load_robot("arm.urdf")
+def test_a_table_has_no_links_to_stand_between():
+    with pytest.raises(InputError, match=r"robot\.yaml: base and tip are links of a URDF; a robot\.yaml has none"):
+        load_robot("robot.yaml", tip="tool0")
+
+
+def test_root_tip_followers_and_joints_without_limits_are_written_to_the_bit(robot):
+    joints = (
+        Joint("lift", "prismatic", limits=(0.0, 0.5)),
+        Joint("turn", a=0.1, limits=(-math.inf, math.inf)),
+        Joint("other", "prismatic", d=0.01, limits=(0.0, 0.5), follows="lift", ratio=-1.0 / 3.0),
+        Joint("geared", alpha=0.1, follows="turn", ratio=2.0),
+    )
+    root, tip = Frame((0.1, 1 / 3, 0.0), (0.0, 0.0, -2.0)), Frame((0.0, 0.0, 1e-7), (1.0, 0.5, 0.25))
+    arm = Arm("a", joints, "standard-dh", root, tip)
+    assert robot(dump_robot(arm)) == arm
+
+
+def test_a_followers_ratio_is_in_the_files_units(robot):
+    text = (
+        "name: a\nunits: {length: mm, angle: deg}\njoints:\n"
+        "  - {name: j1}\n  - {name: j2, type: prismatic, follows: j1, ratio: 2}\n"
+    )
+    assert robot(text).joints[1].ratio == pytest.approx(2e-3 / math.radians(1.0))
+
+
+def test_a_joint_follows_one_that_has_a_reading(problems):
+    (problem,) = problems("name: a\njoints: [{name: j1}, {name: j2, follows: j3}]\n")
+    assert problem == ("robot.yaml, line 1: expected joint j2 to follow one that has a reading of its own: j1")
 
 
 def test_a_robot_is_written_to_the_bit(robot):

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from boresight.geometry import matrix_rpy, rotation_angle, rpy_matrix
+from boresight.geometry import matrix_rpy, rotation_angle, rpy_matrix, rpy_near
 from boresight.geometry.rotations import axis_rotation, nearest_rotation
 
 angles = st.floats(-math.pi, math.pi)
@@ -80,3 +80,26 @@ def test_nearest_rotation_of_a_rotation_with_noise_is_near_it_and_proper():
         assert is_rotation(near)
         assert rotation_angle(R, near) < 1e-5
     assert is_rotation(nearest_rotation(-np.eye(3)))
+
+
+@given(angles, pitches, angles, st.tuples(*[st.floats(-10.0, 10.0)] * 3))
+@example(0.3, math.pi / 2, -2.0, (0.0, math.pi / 2, 0.0))
+@example(1e-9, math.pi / 2 - 1e-9, 1e-9, (0.0, math.pi / 2, 0.0))
+def test_rpy_near_any_angles_give_the_rotation_back(roll, pitch, yaw, near):
+    R = rpy_matrix((roll, pitch, yaw))
+    np.testing.assert_allclose(rpy_matrix(rpy_near(R, near)), R, rtol=0, atol=2e-13)
+
+
+@given(st.tuples(angles, angles, angles), st.tuples(*[st.floats(-1e-3, 1e-3)] * 3))
+def test_rpy_near_angles_are_near_them_away_from_the_singularity(rpy, change):
+    if abs(math.cos(rpy[1])) < 0.1:
+        return
+    asked = tuple(a + b for a, b in zip(rpy, change, strict=True))
+    found = rpy_near(rpy_matrix(asked), rpy)
+    np.testing.assert_allclose(found, asked, rtol=0, atol=1e-12)
+
+
+def test_rpy_at_a_right_angle_keeps_the_yaw_that_is_given():
+    R = rpy_matrix((0.3, math.pi / 2, 0.1))
+    assert rpy_near(R, (0.3, math.pi / 2, 0.1)) == pytest.approx((0.3, math.pi / 2, 0.1), abs=1e-12)
+    assert rpy_near(R, (0.5, math.pi / 2, 0.3)) == pytest.approx((0.5, math.pi / 2, 0.3), abs=1e-12)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from boresight.arm import Arm
 from boresight.kernels.programs import LANES, MISSED, padded, workspace
 from boresight.kernels.sweeping import sweep
 from boresight.sensing import Readings
@@ -14,6 +17,7 @@ from random_cells import (
     random_arm,
     random_cell,
     random_corrections,
+    random_frame,
     random_joints,
     random_targets,
 )
@@ -83,6 +87,20 @@ def test_compiled_cost_equals_numpy_with_some_parameters_free_in_any_order(seed)
     names = [parameter.name for parameter in cell.parameters]
     free = [str(name) for name in rng.permutation(names)[: int(rng.integers(1, len(names)))]]
     assert_equal_costs(rng, cell, rows=20, count=int(rng.integers(1, 40)), free=free)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_compiled_cost_equals_numpy_with_joints_that_follow_and_frames_at_both_ends(seed):
+    rng = np.random.default_rng([seed, 23])
+    drawn = random_arm(rng, 5)
+    joints = list(drawn.joints)
+    for place in (2, 4):
+        leader = joints[place - 1].name if place == 2 else joints[0].name
+        joints[place] = replace(joints[place], follows=leader, ratio=float(rng.uniform(-2.0, 2.0)))
+    arm = Arm("geared", tuple(joints), drawn.convention, random_frame(rng), random_frame(rng))
+    cell = random_cell(rng, planes=2, arm=arm)
+    free = [parameter.name for parameter in cell.parameters]
+    assert_equal_costs(rng, cell, rows=30, count=2 * LANES, free=free)
 
 
 def test_compiled_cost_equals_numpy_where_corrections_outgrow_the_unit_normal():

@@ -7,6 +7,7 @@ Modified D-H (Craig) with beta:   `Ry(beta) Rx(alpha) Tx(a) Tz(d) Rz(q + theta)`
 
 from __future__ import annotations
 
+import math
 from typing import Literal
 
 from boresight.arm.motions import Motion
@@ -17,6 +18,10 @@ JointType = Literal["revolute", "prismatic"]
 LINK_NUMBERS = ("theta", "d", "a", "alpha", "beta")
 """The five numbers of a joint and its link."""
 
+NEARLY_PARALLEL = math.radians(5.0)
+"""Consecutive axes closer than this are parallel: their common normal, and so d, is not defined well enough,
+and beta stands in for it (Hayati & Mirmirani 1985; paper, eq. 2)."""
+
 _Z, _X, _Y = 2, 0, 1
 _STANDARD_ORDER = ("theta", "d", "a", "alpha", "beta")
 _MODIFIED_ORDER = ("beta", "alpha", "a", "d", "theta")
@@ -25,7 +30,12 @@ _SHIFTS_ALONG = {"d": _Z, "a": _X}
 
 
 def link_motions(
-    convention: Convention, joint_type: JointType, joint: int, name: str, numbers: dict[str, float]
+    convention: Convention,
+    joint_type: JointType,
+    joint: int,
+    name: str,
+    numbers: dict[str, float],
+    ratio: float = 1.0,
 ) -> tuple[Motion, ...]:
     """Returns one joint's motions in the order of its convention, its reading added to theta or d.
 
@@ -35,6 +45,7 @@ def link_motions(
         joint: the column of the joint readings.
         name: the joint's name; parameters are called `<name>.theta` and so on.
         numbers: theta, alpha, beta [rad], d, a [m].
+        ratio: what the reading is multiplied by.
     """
     moving = "theta" if joint_type == "revolute" else "d"
     order = _STANDARD_ORDER if convention == "standard-dh" else _MODIFIED_ORDER
@@ -45,6 +56,7 @@ def link_motions(
             value=numbers[number],
             parameter=f"{name}.{number}",
             joint=joint if number == moving else None,
+            ratio=ratio if number == moving else 1.0,
         )
         for number in order
     )

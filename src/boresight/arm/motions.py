@@ -15,6 +15,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
+from boresight.geometry import Frame
 from boresight.units import Quantity
 
 
@@ -28,6 +29,7 @@ class Motion:
         value: nominal amount [rad or m], added to a joint's reading where there is one.
         parameter: the name under which the amount can be corrected, or None.
         joint: the column of the joint readings that adds to the amount, or None.
+        ratio: what the reading is multiplied by; 1 unless the joint mimics another.
     """
 
     turns: bool
@@ -35,6 +37,7 @@ class Motion:
     value: float = 0.0
     parameter: str | None = None
     joint: int | None = None
+    ratio: float = 1.0
 
     @property
     def quantity(self) -> Quantity:
@@ -101,6 +104,16 @@ class Chain:
             _advance(motion, amount, rotation, origin)
         return _homogeneous(rotation, origin)
 
+    def up_to_joints(self, joints: Float[np.ndarray, "rows joints"]) -> Float[np.ndarray, "rows moving 4 4"]:
+        """Returns the frame in which each joint moves, joint by joint from the base outwards."""
+        rotation, origin = _start(len(joints))
+        frames = []
+        for motion, amount in self._amounts(joints, None):
+            if motion.joint is not None:
+                frames.append(_homogeneous(rotation, origin))
+            _advance(motion, amount, rotation, origin)
+        return np.stack(frames, axis=1)
+
     def linearise(
         self, joints: Float[np.ndarray, "rows joints"], corrections: Float[np.ndarray, "parameters"] | None = None
     ) -> Linearisation:
@@ -129,8 +142,15 @@ class Chain:
                     amount = amount + corrections[column]
                 column += 1
             if motion.joint is not None:
-                amount = amount + joints[:, motion.joint]
+                amount = amount + motion.ratio * joints[:, motion.joint]
             yield motion, amount
+
+
+def fixed_motions(frame: Frame) -> tuple[Motion, ...]:
+    """Returns the motions that lead to a frame and on; none for those that are nothing."""
+    shifts = tuple(Motion(turns=False, axis=axis, value=frame.xyz[axis]) for axis in range(3) if frame.xyz[axis])
+    turns = tuple(Motion(turns=True, axis=axis, value=frame.rpy[axis]) for axis in (2, 1, 0) if frame.rpy[axis])
+    return shifts + turns
 
 
 def _start(rows: int) -> tuple[np.ndarray, np.ndarray]:

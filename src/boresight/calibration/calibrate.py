@@ -102,6 +102,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         warnings=campaign.warnings + _warnings(solution.fit),
         notes=campaign.notes + left_out_in_words(left_out(campaign, nominal, freedoms)),
         inputs=campaign.inputs,
+        robot_file=campaign.robot_file,
     )
 
 

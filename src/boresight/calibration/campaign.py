@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from boresight.arm.serial import SerialChain
 from boresight.sensing import Cell, Readings
 
 
@@ -39,6 +40,21 @@ class SetAside:
 
 
 @dataclass(frozen=True)
+class RobotFile:
+    """The description an arm was read from, kept so that it can be handed back corrected.
+
+    Attributes:
+        name: what the user calls the file.
+        content: its bytes.
+        chain: the joints in it that are the arm.
+    """
+
+    name: str
+    content: bytes
+    chain: SerialChain
+
+
+@dataclass(frozen=True)
 class Campaign:
     """The input of one calibration.
 
@@ -54,6 +70,7 @@ class Campaign:
         warnings: what looked odd in the files, a sentence each.
         notes: choices made in reading them that a person should know.
         inputs: SHA-256 by file name.
+        robot_file: the URDF the arm was read from, if it was.
     """
 
     name: str
@@ -67,3 +84,4 @@ class Campaign:
     warnings: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     inputs: Mapping[str, str] = field(default_factory=dict)
+    robot_file: RobotFile | None = None

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from boresight.arm import LINK_NUMBERS, Arm
+from boresight.arm.conventions import NEARLY_PARALLEL
 from boresight.calibration.campaign import Campaign, Freedom
 from boresight.inference import select_visible
 from boresight.sensing import Cell, Readings
@@ -15,10 +16,6 @@ from boresight.units import Quantity
 USUAL_WITHIN: dict[Quantity, float] = {"angle": 0.05, "length": 0.02, "number": 0.02}
 """Half-width of the search [rad, m, 1] where the campaign names no parameters: several times the errors that
 assembly, transport and temperature leave on arms of a metre or two."""
-
-NEARLY_PARALLEL = math.radians(5.0)
-"""Consecutive axes closer than this are parallel: their common normal, and so d, is not defined well enough,
-and beta stands in for it (Hayati & Mirmirani 1985; paper, eq. 2)."""
 
 
 def freedoms_of(campaign: Campaign, cell: Cell) -> tuple[Freedom, ...]:
@@ -41,7 +38,7 @@ def link_candidates(arm: Arm) -> list[str]:
 
     Every theta, a and alpha; d, or beta in its place where the joint's axis is nearly parallel to the next.
     """
-    standing_in = {name for name, parallel in zip(arm.joint_names, _parallel(arm), strict=True) if parallel}
+    standing_in = {joint.name for joint, parallel in zip(arm.joints, _parallel(arm), strict=True) if parallel}
     chosen = []
     for number in LINK_NUMBERS:
         for joint in arm.joints:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from boresight.calibration.campaign import SetAside
+from boresight.calibration.campaign import RobotFile, SetAside
 from boresight.calibration.robust import NoiseCheck
 from boresight.calibration.solve import Solution, Solver
 from boresight.inference import PoseUncertainty
@@ -153,6 +153,7 @@ class Result:
         warnings: what a person should look at.
         notes: choices a person should know.
         inputs: SHA-256 by file name.
+        robot_file: the URDF the arm was read from, if it was.
     """
 
     name: str
@@ -181,6 +182,7 @@ class Result:
     warnings: tuple[str, ...]
     notes: tuple[str, ...]
     inputs: Mapping[str, str]
+    robot_file: RobotFile | None = None
 
     def correlations(self, above: float = 0.9) -> list[tuple[str, str, float]]:
         """Returns the pairs of free parameters whose errors go together, the strongest first."""

@@ -20,6 +20,9 @@ from boresight.errors import BoresightError
 SolverChoice = Literal["evolution+least-squares", "evolution", "least-squares"]
 StrategyChoice = Literal["trade-off", "rand-to-best/1", "current-to-best/1", "best/1", "rand/1"]
 
+FormatChoice = Literal["urdf", "dh", "ur-kinematics", "ur-calibration-conf", "pal", "json"]
+ConventionChoice = Literal["standard-dh", "modified-dh"]
+
 app = App(
     name="boresight",
     version=__version__,
@@ -226,6 +229,33 @@ def reproduce(
     from boresight.cli.reproduce import run_reproduce
 
     return run_reproduce(output, quick=quick, seeds=seeds, seed=seed, workers=workers)
+
+
+@app.command
+def export(
+    result: Path,
+    *,
+    to: FormatChoice,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    convention: ConventionChoice | None = None,
+    even_if_rejected: Annotated[bool, Parameter(negative="")] = False,
+    overwrite: Annotated[bool, Parameter(negative="")] = False,
+) -> int:
+    """Hand the identified arm to a planner or controller: URDF, D-H, and the formats of UR and PAL.
+
+    Args:
+        result: the folder that calibrate wrote.
+        to: urdf: the URDF that was calibrated, or a new one; dh: a robot.yaml, or a table where the output ends
+            in .csv; ur-kinematics: six transforms for a driver; ur-calibration-conf: deltas of D-H for a
+            controller; pal: deltas of a URDF's origins; json: every form at once.
+        output: the file to write; standard output by default.
+        convention: of dh; the arm's own by default.
+        even_if_rejected: export a result that was rejected.
+        overwrite: replace the output file if there is one.
+    """
+    from boresight.cli.export import run_export
+
+    return run_export(result, to, output, convention=convention, even_if_rejected=even_if_rejected, overwrite=overwrite)
 
 
 def main() -> None:

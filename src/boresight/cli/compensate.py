@@ -15,10 +15,10 @@ from boresight.compensation import Compensation, Reached, compensate
 from boresight.errors import InputError, OutputError
 from boresight.files.commands import commands_csv
 from boresight.files.poses import read_poses
-from boresight.files.results import load_result
 from boresight.files.writing import write_atomically
 from boresight.kernels.compiling import first_compile_ahead
 from boresight.kernels.reaching import reach
+from boresight.report.stored import load_result
 from boresight.units import Units, in_millimetres
 
 _SHOWN = 5
@@ -45,12 +45,12 @@ def run_compensate(
         raise OutputError(f"{target}: is there already; name another file with -o, or say --overwrite")
     if target.exists() and path.exists() and target.samefile(path):
         raise OutputError(f"{target}: is the file of the poses itself; name another file with -o")
-    wanted = read_poses(path, stored.calibrated, units)
+    wanted = read_poses(path, stored.identified, units)
     if first_compile_ahead(reach):
         Console(stderr=True).print("Compiling for this machine; this happens once and takes a few seconds.")
     found = compensate(
         stored.nominal,
-        stored.calibrated,
+        stored.identified,
         joints=wanted.joints,
         poses=wanted.poses,
         position_only=position_only or wanted.free,
@@ -90,7 +90,7 @@ def _show(console: Console, found: Compensation, target: Path, controller_poses:
     console.print(f"{what} for [bold]{len(found)}[/] poses: {reached} reached.")
     off = np.sqrt(np.mean(found.before**2, axis=0))
     console.print(f"  Uncompensated, the tool would be {in_millimetres(off[0])} and {1e3 * off[1]:.3g} mrad off (RMS).")
-    revolute = [joint.type == "revolute" for joint in found.calibrated.joints]
+    revolute = [joint.type == "revolute" for joint in found.calibrated.driven]
     moved = np.abs(found.moved[found.reached <= Reached.NEAR_SINGULAR][:, revolute])
     if moved.size:
         console.print(

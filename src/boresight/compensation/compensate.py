@@ -58,8 +58,8 @@ def compensate(
         poses = nominal.forward_kinematics(joints)
     if joints is None:
         joints = _nominal_joints(nominal, poses, lever)
-    if joints.shape != (len(poses), len(nominal.joints)) or poses.shape[1:] != (4, 4):
-        raise ValueError(f"expected (rows, {len(nominal.joints)}) joints and (rows, 4, 4) poses")
+    if joints.shape != (len(poses), len(nominal.driven)) or poses.shape[1:] != (4, 4):
+        raise ValueError(f"expected (rows, {len(nominal.driven)}) joints and (rows, 4, 4) poses")
     found, missing, weakest = _reach(calibrated, poses, joints, lever, SPREADS)
     there = _there(missing)
     low, high = calibrated.limits.T
@@ -98,7 +98,7 @@ def _reach(
     """Returns joints, what is missing and the weakest motion; rows that do not get there begin again elsewhere."""
     limb = limb_of(arm)
     low, high = _span(arm)
-    slides = np.array([joint.type == "prismatic" for joint in arm.joints])
+    slides = np.array([joint.type == "prismatic" for joint in arm.driven])
     found, missing, weakest = _run(limb, poses, starts, lever)
     random = np.random.Generator(np.random.Philox(0))
     for spread in spreads:
@@ -136,6 +136,7 @@ def limb_of(arm: Arm) -> Limb:
         sine=np.sin(value),
         cosine=np.cos(value),
         joint=np.array([FIXED if motion.joint is None else motion.joint for motion in motions], dtype=np.int64),
+        ratio=np.array([motion.ratio for motion in motions]),
         lower=np.ascontiguousarray(low),
         upper=np.ascontiguousarray(high),
     )
@@ -143,7 +144,7 @@ def limb_of(arm: Arm) -> Limb:
 
 def _span(arm: Arm) -> tuple[np.ndarray, np.ndarray]:
     """The limits, of turns within one turn either way: beyond, poses repeat."""
-    slides = np.array([joint.type == "prismatic" for joint in arm.joints])
+    slides = np.array([joint.type == "prismatic" for joint in arm.driven])
     low, high = arm.limits.T
     return np.where(slides, low, np.maximum(low, -np.pi)), np.where(slides, high, np.minimum(high, np.pi))
 

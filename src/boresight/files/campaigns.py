@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
 from boresight.arm import Arm
-from boresight.calibration.campaign import Campaign, Freedom
+from boresight.calibration.campaign import Campaign, Freedom, RobotFile
 from boresight.errors import InputError, did_you_mean
 from boresight.files.composing import KeyPath
 from boresight.files.documents import Document, read_document
@@ -16,8 +17,9 @@ from boresight.files.explaining import validated
 from boresight.files.observations import Observations, read_observations
 from boresight.files.patterns import Matcher
 from boresight.files.problems import Problems, listed, shown
-from boresight.files.robots import arm_of, refuse_urdf
+from boresight.files.robots import arm_of, is_urdf
 from boresight.files.schemas import CampaignEntry, FrameEntry
+from boresight.files.urdf import read_urdf
 from boresight.geometry import Frame, Plane
 from boresight.sensing import Cell, LaserRanger, Position, Sensor
 from boresight.units import Units
@@ -42,7 +44,8 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
     entry = validated(document, CampaignEntry)
     problems = Problems()
     inputs = {document.path.name: document.sha256}
-    cell = cell_of(document, entry, inputs, problems)
+    robot = RobotOf(document, entry, inputs)
+    cell = cell_of(document, entry, robot, problems)
     choice = Choice.of(document, entry, cell, problems)
     data: dict[str, Observations] = {}
     for key, name in (("observations", entry.observations), ("validation", entry.validation)):
@@ -62,22 +65,17 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
         readings=data["observations"].readings if "observations" in data else None,
         validation=data["validation"].readings if "validation" in data else None,
         freedoms=choice.freedoms,
-        fixed=choice.fixed,
+        fixed=choice.fixed | robot.held,
         unknown=_unknown("base", entry.base) | _unknown("mount", entry.mount),
         set_aside=tuple(row for part in data.values() for row in part.set_aside),
         warnings=(*(warning for part in data.values() for warning in part.warnings), *_same_data(entry, data)),
-        notes=choice.notes,
+        notes=choice.notes + robot.notes,
         inputs=inputs,
+        robot_file=robot.file,
     )
 
 
-def cell_of(
-    document: Document,
-    entry: CampaignEntry,
-    inputs: dict[str, str],
-    problems: Problems,
-    robot_at: KeyPath = ("robot",),
-) -> Cell:
+def cell_of(document: Document, entry: CampaignEntry, robot: RobotOf, problems: Problems) -> Cell:
     """Returns the nominal cell; without an arm nothing else can be judged, so its faults are raised here."""
     units = entry.units.value
     targets: dict[str, Plane] = {}
@@ -96,7 +94,7 @@ def cell_of(
         )
     arm = None
     with problems.gathered():
-        arm = _arm(document, entry, inputs, robot_at)
+        arm = robot.read()
     for name in sorted(set(arm.joint_names) & set(targets)) if arm else ():
         problems.add(f"{document.at(('targets', name))}a joint is called {name} too; expected another name")
     problems.raise_if_any()
@@ -104,16 +102,44 @@ def cell_of(
     return Cell(arm, sensor, _frame(entry.base, units), _frame(entry.mount, units), targets)
 
 
-def _arm(document: Document, entry: CampaignEntry, inputs: dict[str, str], robot_at: KeyPath) -> Arm:
-    name, place = entry.robot.file, document.at(robot_at)
-    if name is not None:
-        refuse_urdf(name, place)
-        robot = read_document(document.path.parent / name, name, place)
-        inputs[name] = robot.sha256
-        return arm_of(robot)
+class RobotOf:
+    """The robot that a campaign names: its arm, and, of a URDF, the file and what it cannot hold."""
+
+    def __init__(
+        self, document: Document, entry: CampaignEntry, inputs: dict[str, str], at: KeyPath = ("robot",)
+    ) -> None:
+        self._document, self._choice, self._inputs, self._at = document, entry.robot, inputs, at
+        self.file: RobotFile | None = None
+        self.held: frozenset[str] = frozenset()
+        self.notes: tuple[str, ...] = ()
+
+    def read(self) -> Arm:
+        """Returns the arm; raises an `InputError` where there is none."""
+        name, place = self._choice.urdf or self._choice.file, self._document.at(self._at)
+        if name is None:
+            return _of_catalogue(self._choice.catalogue or "", place)
+        path = self._document.path.parent / name
+        if self._choice.urdf is None and not is_urdf(name):
+            robot = read_document(path, name, place)
+            self._inputs[name] = robot.sha256
+            return arm_of(robot)
+        self.file = read_urdf(path, name, place, self._choice.base, self._choice.tip)
+        self._inputs[name] = hashlib.sha256(self.file.content).hexdigest()
+        chain = self.file.chain
+        if not chain.ends_with_a_fixed_joint:
+            last = chain.joints[-1].name
+            self.held = frozenset(f"{last}.{number}" for number in ("a", "alpha", "beta"))
+            self.notes = (
+                f"{last}.a, .alpha and .beta are held: {chain.tip} is the link that {last} moves, and the URDF has no "
+                "joint behind it to hold their corrections. Errors of the sensor's place are mount's.",
+            )
+        return chain.arm
+
+
+def _of_catalogue(wanted: str, place: str) -> Arm:
     from boresight.arm import catalogue  # a table of arms that most campaigns do without
 
-    known, wanted = catalogue.names(), entry.robot.catalogue or ""
+    known = catalogue.names()
     if wanted not in known:
         near = did_you_mean(wanted[:60], known)
         raise InputError(f"{place}the catalogue has no arm {shown(wanted)}{near}; expected one of {listed(known)}")

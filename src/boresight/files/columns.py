@@ -67,13 +67,13 @@ def read_columns(header: Sequence[str], cell: Cell, units: Units, place: str, pr
         )
     repeats = ("repeats",) if "repeats" in at else ()
     names = (*cell.arm.joint_names, *channels, *stds, *repeats)
-    angles = [units.radians if joint.type == "revolute" else units.metres for joint in cell.arm.joints]
+    angles = [units.radians if joint.type == "revolute" else units.metres for joint in cell.arm.driven]
     return Columns(
         width=len(header),
         names=names,
         places=tuple(at.get(name, 0) for name in names),
         scales=(*angles, *[units.metres] * (len(channels) + len(stds)), *[1.0] * len(repeats)),
-        joints=len(cell.arm.joints),
+        joints=len(cell.arm.driven),
         channels=len(channels),
         stds=len(stds),
         repeats=bool(repeats),

@@ -34,7 +34,7 @@ def commands_csv(
         numbers = np.hstack([poses[:, :3, 3] / units.metres, turns])
     else:
         names = found.calibrated.joint_names
-        scales = [units.radians if joint.type == "revolute" else units.metres for joint in found.calibrated.joints]
+        scales = [units.radians if joint.type == "revolute" else units.metres for joint in found.calibrated.driven]
         numbers = found.joints / scales
     missing = found.missing / [units.metres, units.radians]
     kept = others or ((),) * (len(found) + 1)

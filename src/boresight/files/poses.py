@@ -63,7 +63,7 @@ def read_poses(path: Path | str, arm: Arm, units: Units) -> WantedPoses:
     problems.raise_if_any()
     joints = poses = None
     if arm.joint_names[0] in numbers:
-        scales = [units.radians if joint.type == "revolute" else units.metres for joint in arm.joints]
+        scales = [units.radians if joint.type == "revolute" else units.metres for joint in arm.driven]
         joints = np.stack([numbers[n] * scale for n, scale in zip(arm.joint_names, scales, strict=True)], axis=1)
     if "x" in numbers:
         poses = np.tile(np.eye(4), (len(rows), 1, 1))

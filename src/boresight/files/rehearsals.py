@@ -63,7 +63,7 @@ def _readings_csv(cell: Cell, readings: Readings, units: Units) -> str:
     writer = csv.writer(text, lineterminator="\n")
     named = cell.sensor.needs_target
     writer.writerow([*cell.arm.joint_names, *cell.sensor.channels, *(["target"] if named else [])])
-    per_joint = [units.radians if joint.type == "revolute" else units.metres for joint in cell.arm.joints]
+    per_joint = [units.radians if joint.type == "revolute" else units.metres for joint in cell.arm.driven]
     names = list(cell.targets)
     for joints, values, target in zip(readings.joints, readings.values, readings.target, strict=True):
         numbers = [f"{value:.12g}" for value in (*(joints / per_joint), *(values / units.metres))]

@@ -11,26 +11,35 @@ from boresight.errors import InputError
 from boresight.files.documents import Document, read_document
 from boresight.files.explaining import validated
 from boresight.files.problems import Problems, shown
-from boresight.files.schemas import JointEntry, RobotEntry
+from boresight.files.schemas import JointEntry, PlaceEntry, RobotEntry
+from boresight.files.urdf import SUFFIXES, read_urdf
+from boresight.geometry import Frame
 from boresight.units import Units
 
 _LENGTHS = ("d", "a")
 
 
-def load_robot(path: Path | str) -> Arm:
-    """Returns the arm that a robot.yaml describes.
+def load_robot(path: Path | str, base: str | None = None, tip: str | None = None) -> Arm:
+    """Returns the arm that a robot.yaml or a URDF describes.
+
+    Args:
+        path: where it is.
+        base: of a URDF, the link the arm stands on; the root link by default.
+        tip: of a URDF, the link that carries the sensor; the last link, if there is only one, by default.
 
     Raises:
         InputError: everything that is wrong with the file.
     """
-    refuse_urdf(str(path))
+    if is_urdf(str(path)):
+        return read_urdf(path, base=base, tip=tip).chain.arm
+    if base is not None or tip is not None:
+        raise InputError(f"{path}: base and tip are links of a URDF; a robot.yaml has none")
     return arm_of(read_document(path))
 
 
-def refuse_urdf(name: str, named_by: str = "") -> None:
-    """Raises an `InputError` for a robot file of a kind that cannot be read yet."""
-    if Path(name).suffix.lower() in (".urdf", ".xacro", ".xml"):
-        raise InputError(f"{named_by}{name}: URDF robots are not supported yet; expected a robot.yaml")
+def is_urdf(name: str) -> bool:
+    """Whether a robot file is read as URDF, by the end of its name."""
+    return Path(name).suffix.lower() in SUFFIXES
 
 
 def arm_of(document: Document) -> Arm:
@@ -41,7 +50,8 @@ def arm_of(document: Document) -> Arm:
         entry = validated(document, RobotEntry)
     problems.raise_if_any()
     units = entry.units.value
-    return Arm(entry.name, tuple(_joint(joint, units) for joint in entry.joints), entry.convention)
+    joints = tuple(_joint(joint, units, entry) for joint in entry.joints)
+    return Arm(entry.name, joints, entry.convention, _frame(entry.root, units), _frame(entry.tip, units))
 
 
 def dump_robot(arm: Arm, header_comment: str = "") -> str:
@@ -57,13 +67,28 @@ def dump_robot(arm: Arm, header_comment: str = "") -> str:
         f"name: {_quoted(arm.name)}",
         "units: {length: m, angle: rad}",
         f"convention: {arm.convention}",
+        *_place("root", arm.root),
         "joints:",
     ]
     for joint in arm.joints:
         links = ", ".join(f"{number}: {float(getattr(joint, number))!r}" for number in numbers)
         low, high = map(float, joint.limits)
-        lines.append(f"  - {{name: {_quoted(joint.name)}, type: {joint.type}, {links}, limits: [{low!r}, {high!r}]}}")
-    return "\n".join(lines) + "\n"
+        limits = "none" if math.isinf(low) else f"[{low!r}, {high!r}]"
+        follows = f", follows: {_quoted(joint.follows)}, ratio: {float(joint.ratio)!r}" if joint.follows else ""
+        lines.append(f"  - {{name: {_quoted(joint.name)}, type: {joint.type}, {links}, limits: {limits}{follows}}}")
+    return "\n".join([*lines, *_place("tip", arm.tip)]) + "\n"
+
+
+def _place(name: str, frame: Frame) -> list[str]:
+    """Returns the line of a frame, or none for one that is nothing."""
+    xyz, rpy = ([float(value) for value in part] for part in (frame.xyz, frame.rpy))
+    return [f"{name}: {{xyz: {xyz}, rpy: {rpy}}}"] if frame != Frame() else []
+
+
+def _frame(entry: PlaceEntry, units: Units) -> Frame:
+    x, y, z = (value * units.metres for value in entry.xyz)
+    roll, pitch, yaw = (value * units.radians for value in entry.rpy)
+    return Frame((x, y, z), (roll, pitch, yaw))
 
 
 def _quoted(name: str) -> str:
@@ -71,14 +96,18 @@ def _quoted(name: str) -> str:
     return json.dumps(name, ensure_ascii=False)
 
 
-def _joint(entry: JointEntry, units: Units) -> Joint:
+def _joint(entry: JointEntry, units: Units, robot: RobotEntry) -> Joint:
     numbers = {
         number: getattr(entry, number) * (units.metres if number in _LENGTHS else units.radians)
         for number in LINK_NUMBERS
     }
     scale = units.radians if entry.type == "revolute" else units.metres
     low, high = (limit * scale for limit in entry.limits) if entry.limits else (-math.pi, math.pi)
-    return Joint(entry.name, entry.type, limits=(low, high), **numbers)
+    ratio = entry.ratio
+    if entry.follows is not None:
+        leads = next(joint.type for joint in robot.joints if joint.name == entry.follows)
+        ratio *= scale / (units.radians if leads == "revolute" else units.metres)
+    return Joint(entry.name, entry.type, limits=(low, high), follows=entry.follows, ratio=ratio, **numbers)
 
 
 def _repeated_names(document: Document) -> list[str]:

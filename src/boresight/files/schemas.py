@@ -26,11 +26,19 @@ def expected(what: str) -> PydanticCustomError:
     return PydanticCustomError("expected", "{what}", {"what": what})
 
 
-def _checked_name(name: str) -> str:
+def name_fault(name: str) -> str | None:
+    """Returns what was expected of a name that joints and targets cannot have, or None."""
     if not name or name.strip() != name or not name.isprintable() or _NOT_IN_NAMES & set(name):
-        raise expected('a name that is not empty, without dots, wildcards, commas, ", # or spaces around it')
+        return 'a name that is not empty, without dots, wildcards, commas, ", # or spaces around it'
     if name in RESERVED:
-        raise expected(f"a name other than {', '.join(RESERVED)}, which mean something else")
+        return f"a name other than {', '.join(RESERVED)}, which mean something else"
+    return None
+
+
+def _checked_name(name: str) -> str:
+    fault = name_fault(name)
+    if fault:
+        raise expected(fault)
     return name
 
 
@@ -49,8 +57,10 @@ def _unknown_or_triple(value: Any) -> Any:
 
 
 def _limits(value: Any) -> Any:
+    if value == "none":
+        return -math.inf, math.inf
     if not _is_numbers(value, 2) or not value[0] < value[1]:
-        raise expected("two finite numbers, the lower limit and then the upper: [-170, 170]")
+        raise expected("two finite numbers, the lower limit and then the upper: [-170, 170]; or none")
     return tuple(map(float, value))
 
 
@@ -111,12 +121,22 @@ class JointEntry(Entry):
     alpha: Number = 0.0
     beta: Number = 0.0
     limits: Limits = None
+    follows: Name | None = None
+    ratio: Number = 1.0
 
     @model_validator(mode="after")
     def _prismatic_joints_have_limits(self) -> JointEntry:
-        if self.type == "prismatic" and self.limits is None:
+        unlimited = self.limits is None or math.isinf(self.limits[0])
+        if self.type == "prismatic" and self.follows is None and unlimited:
             raise expected("limits for a prismatic joint, in the length unit: limits: [0, 0.5]")
         return self
+
+
+class PlaceEntry(Entry):
+    """`root` or `tip`: where a frame of the arm itself stands."""
+
+    xyz: Triple = (0.0, 0.0, 0.0)
+    rpy: Triple = (0.0, 0.0, 0.0)
 
 
 class RobotEntry(Entry):
@@ -127,7 +147,19 @@ class RobotEntry(Entry):
     )
     units: UnitsEntry = UnitsEntry()
     convention: Convention = "standard-dh"
+    root: PlaceEntry = PlaceEntry()
     joints: Annotated[list[JointEntry], Field(min_length=1)] = Field(description="a list of one joint or more")
+    tip: PlaceEntry = PlaceEntry()
+
+    @model_validator(mode="after")
+    def _joints_follow_joints_that_are_read(self) -> RobotEntry:
+        read = [joint.name for joint in self.joints if joint.follows is None]
+        for joint in self.joints:
+            if joint.follows is not None and joint.follows not in read:
+                raise expected(
+                    f"joint {joint.name} to follow one that has a reading of its own: {', '.join(read) or 'none has'}"
+                )
+        return self
 
 
 def _checked_title(name: str) -> str:
@@ -136,28 +168,31 @@ def _checked_title(name: str) -> str:
     return name
 
 
+_ROBOTS = "the name of a robot.yaml or of a URDF, {catalogue: NAME}, or {urdf: arm.urdf, base: LINK, tip: LINK}"
+
+
 class RobotChoice(Entry):
     """Where a campaign's robot comes from; a bare file name stands for {file: it}."""
 
     file: str | None = None
     catalogue: str | None = None
-    urdf: Any = None
-    base: Any = None
-    tip: Any = None
+    urdf: str | None = None
+    base: str | None = None
+    tip: str | None = None
 
     @model_validator(mode="after")
     def _one_source(self) -> RobotChoice:
-        if self.urdf is not None or self.base is not None or self.tip is not None:
-            raise expected("a robot.yaml or {catalogue: NAME}; URDF robots are not supported yet")
-        if (self.file is None) == (self.catalogue is None):
-            raise expected("the name of a robot.yaml, or {catalogue: NAME}")
+        if [self.file, self.catalogue, self.urdf].count(None) != 2:
+            raise expected(_ROBOTS)
+        if self.urdf is None and (self.base is not None or self.tip is not None):
+            raise expected("base and tip beside a urdf only: {urdf: arm.urdf, base: base_link, tip: tool0}")
         return self
 
 
 def robot_choice(value: Any) -> Any:
     """Returns the block that a bare file name stands for."""
     if not isinstance(value, str | dict):
-        raise expected("the name of a robot.yaml, or {catalogue: NAME}")
+        raise expected(_ROBOTS)
     return {"file": value} if isinstance(value, str) else value
 
 
@@ -197,9 +232,7 @@ class FreedomEntry(Entry):
 class CampaignEntry(Entry):
     """campaign.yaml."""
 
-    robot: Annotated[RobotChoice, BeforeValidator(robot_choice)] = Field(
-        description="the name of a robot.yaml, or {catalogue: NAME}"
-    )
+    robot: Annotated[RobotChoice, BeforeValidator(robot_choice)] = Field(description=_ROBOTS)
     units: UnitsEntry = UnitsEntry()
     sensor: SensorEntry = Field(description="a block such as {type: laser_ranger, noise_std: 0.0002}")
     mount: FrameEntry = FrameEntry()

@@ -11,7 +11,7 @@ from typing import Any
 from boresight.calibration.campaign import Campaign, Freedom
 from boresight.calibration.freedom import USUAL_WITHIN, link_candidates
 from boresight.errors import InputError, did_you_mean
-from boresight.files.campaigns import Choice, cell_of, load_campaign
+from boresight.files.campaigns import Choice, RobotOf, cell_of, load_campaign
 from boresight.files.composing import KeyPath
 from boresight.files.documents import Document, read_document
 from boresight.files.explaining import validated
@@ -75,9 +75,11 @@ def _benches(document: Document, entry: StudyEntry, problems: Problems) -> tuple
         assert robot is not None
         where: KeyPath = ("vary", "robot", place) if entry.vary.robot else ("robot",)
         with suppress(InputError):  # which are among the problems then
-            cell = cell_of(document, _campaign(entry, robot), {}, problems, where)
-            name = robot.catalogue or Path(robot.file or "").stem
-            cells[str(robot.file) if name in cells else name] = cell
+            campaign = _campaign(entry, robot)
+            cell = cell_of(document, campaign, RobotOf(document, campaign, {}, where), problems)
+            file = robot.file or robot.urdf or ""
+            name = robot.catalogue or Path(file).stem
+            cells[file if name in cells else name] = cell
     problems.raise_if_any()
     benches = {name: _own_bench(document, entry, cell, tuple(cells.values()), problems) for name, cell in cells.items()}
     assert entry.sensor is not None

@@ -49,7 +49,7 @@ def _copies(readings: Readings, name: str) -> list[str]:
 
 
 def _wrong_angles(readings: Readings, cell: Cell, units: Units, name: str) -> list[str]:
-    turning = np.array([joint.type == "revolute" for joint in cell.arm.joints])
+    turning = np.array([joint.type == "revolute" for joint in cell.arm.driven])
     if not turning.any():
         return []
     size = np.abs(readings.joints[:, turning]).max(axis=0)
@@ -84,10 +84,10 @@ def _excess(
 
 def _beyond_limits(readings: Readings, cell: Cell, units: Units, name: str) -> list[str]:
     excess = _excess(readings.joints, cell.arm.limits)
-    rows, joints = excess.argmax(axis=0), range(len(cell.arm.joints))
+    rows, joints = excess.argmax(axis=0), range(len(cell.arm.driven))
     counts = (excess > 1e-9).sum(axis=0)  # a limit of 170 degrees does not survive the way to radians to the bit
     return [
-        _beyond(cell.arm.joints[j], readings.joints[rows[j], j], readings.line[rows[j]], counts[j], units, name)
+        _beyond(cell.arm.driven[j], readings.joints[rows[j], j], readings.line[rows[j]], counts[j], units, name)
         for j in joints
         if counts[j]
     ]

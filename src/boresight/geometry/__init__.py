@@ -10,3 +10,4 @@ from boresight.geometry.rays import range_to_plane as range_to_plane
 from boresight.geometry.rotations import matrix_rpy as matrix_rpy
 from boresight.geometry.rotations import rotation_angle as rotation_angle
 from boresight.geometry.rotations import rpy_matrix as rpy_matrix
+from boresight.geometry.rotations import rpy_near as rpy_near

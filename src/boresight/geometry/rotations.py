@@ -33,8 +33,33 @@ def matrix_rpy(rotation: Float[np.ndarray, "3 3"]) -> tuple[float, float, float]
     pitch = float(np.arctan2(-rotation[2, 0], horizontal))
     if horizontal < 1e-12:
         return 0.0, pitch, float(np.arctan2(-rotation[0, 1], rotation[1, 1]))
-    roll = float(np.arctan2(rotation[2, 1], rotation[2, 2]))
-    return roll, pitch, float(np.arctan2(rotation[1, 0], rotation[0, 0]))
+    yaw = float(np.arctan2(rotation[1, 0], rotation[0, 0]))
+    return _roll_after(yaw, rotation), pitch, yaw
+
+
+def rpy_near(rotation: Float[np.ndarray, "3 3"], rpy_rad: tuple[float, float, float]) -> tuple[float, float, float]:
+    """Returns the (roll, pitch, yaw) [rad] of a rotation that are nearest to given ones.
+
+    Every orientation has two such triples, and turns of 2 pi; where pitch is a right angle, the given yaw is kept.
+    """
+    horizontal = float(np.hypot(rotation[0, 0], rotation[1, 0]))
+    yaw = float(np.arctan2(rotation[1, 0], rotation[0, 0])) if horizontal > 1e-13 else float(rpy_rad[2])
+    found = []
+    for turned in (yaw, yaw + np.pi):
+        forward = np.cos(turned) * rotation[0, 0] + np.sin(turned) * rotation[1, 0]
+        pitch = float(np.arctan2(-rotation[2, 0], forward))
+        angles = np.array([_roll_after(turned, rotation), pitch, turned])
+        found.append(angles + 2 * np.pi * np.round((np.asarray(rpy_rad) - angles) / (2 * np.pi)))
+    roll, pitch, yaw = min(found, key=lambda angles: float(np.abs(angles - rpy_rad).sum()))
+    return float(roll), float(pitch), float(yaw)
+
+
+def _roll_after(yaw: float, rotation: Float[np.ndarray, "3 3"]) -> float:
+    """Returns the roll that belongs to a yaw: near a right angle of pitch, where yaw itself is uncertain, the two
+    must make up for each other.
+    """
+    c, s = np.cos(yaw), np.sin(yaw)
+    return float(np.arctan2(s * rotation[0, 2] - c * rotation[1, 2], c * rotation[1, 1] - s * rotation[0, 1]))
 
 
 def rotation_angle(

@@ -126,7 +126,7 @@ def uncalibrated_in_words(uncertainty: PoseUncertainty) -> str:
 def spread_configurations(cell: Cell, rows: int) -> Float[np.ndarray, "rows joints"]:
     """Returns configurations spread evenly within the joints' limits, the same ones every time (Halton 1960)."""
     limits = np.array(cell.arm.limits)
-    turns = np.array([joint.type == "revolute" for joint in cell.arm.joints])
+    turns = np.array([joint.type == "revolute" for joint in cell.arm.driven])
     limits[turns] = np.clip(limits[turns], -np.pi, np.pi)
     primes = _primes(len(limits))
     unit = np.stack([_radical_inverse(np.arange(1, rows + 1), prime) for prime in primes], axis=1)

@@ -35,6 +35,7 @@ class Limb(NamedTuple):
         value: (motions,) angle [rad] or length [m], added to a joint's reading where there is one.
         sine, cosine: (motions,) of the value, for turns that are no joint's.
         joint: (motions,) column of the joint's reading, or `FIXED`.
+        ratio: (motions,) what the reading is multiplied by; several motions may share one.
         lower, upper: (joints,) limits of the readings.
     """
 
@@ -44,13 +45,14 @@ class Limb(NamedTuple):
     sine: np.ndarray
     cosine: np.ndarray
     joint: np.ndarray
+    ratio: np.ndarray
     lower: np.ndarray
     upper: np.ndarray
 
 
 @compiled
 def _move(limb, q, rotation, origin, axes, places):
-    """Writes the tool's R (row by row) and p, and every joint's axis and a point on it, in the base."""
+    """Writes the tool's R (row by row) and p, and every joint motion's axis and a point on it, in the base."""
     for k in range(9):
         rotation[k] = 1.0 if k % 4 == 0 else 0.0
     origin[0] = origin[1] = origin[2] = 0.0
@@ -58,10 +60,10 @@ def _move(limb, q, rotation, origin, axes, places):
         axis, joint = limb.axis[m], limb.joint[m]
         amount = limb.value[m]
         if joint != FIXED:
-            amount += q[joint]
+            amount += limb.ratio[m] * q[joint]
             for k in range(3):
-                axes[joint, k] = rotation[3 * k + axis]
-                places[joint, k] = origin[k]
+                axes[m, k] = rotation[3 * k + axis]
+                places[m, k] = origin[k]
         if limb.kind[m] == TURN:
             s, c = limb.sine[m], limb.cosine[m]
             if joint != FIXED:
@@ -116,18 +118,26 @@ def _error(rotation, origin, pose, lever, error):
 @compiled
 def _slopes(limb, origin, axes, places, lever, jacobian):
     """Writes the (joints, 6) derivative of the tool's (p, lever times rotation) by every joint's reading."""
+    for j in range(jacobian.shape[0]):
+        for k in range(6):
+            jacobian[j, k] = 0.0
     for m in range(limb.kind.shape[0]):
         j = limb.joint[m]
         if j == FIXED:
             continue
-        x, y, z = axes[j, 0], axes[j, 1], axes[j, 2]
+        x, y, z = limb.ratio[m] * axes[m, 0], limb.ratio[m] * axes[m, 1], limb.ratio[m] * axes[m, 2]
         if limb.kind[m] == TURN:
-            a, b, c = origin[0] - places[j, 0], origin[1] - places[j, 1], origin[2] - places[j, 2]
-            jacobian[j, 0], jacobian[j, 1], jacobian[j, 2] = y * c - z * b, z * a - x * c, x * b - y * a
-            jacobian[j, 3], jacobian[j, 4], jacobian[j, 5] = lever * x, lever * y, lever * z
+            a, b, c = origin[0] - places[m, 0], origin[1] - places[m, 1], origin[2] - places[m, 2]
+            jacobian[j, 0] += y * c - z * b
+            jacobian[j, 1] += z * a - x * c
+            jacobian[j, 2] += x * b - y * a
+            jacobian[j, 3] += lever * x
+            jacobian[j, 4] += lever * y
+            jacobian[j, 5] += lever * z
         else:
-            jacobian[j, 0], jacobian[j, 1], jacobian[j, 2] = x, y, z
-            jacobian[j, 3] = jacobian[j, 4] = jacobian[j, 5] = 0.0
+            jacobian[j, 0] += x
+            jacobian[j, 1] += y
+            jacobian[j, 2] += z
 
 
 @compiled
@@ -237,7 +247,8 @@ def reach(limb, poses, starts, lever, joints, missing, weakest):
     count = starts.shape[1]
     rows = 6 if lever > 0.0 else 3
     rotation, origin, error = np.empty(9), np.empty(3), np.empty(6)
-    axes, places, jacobian = np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 6))
+    motions = limb.kind.shape[0]
+    axes, places, jacobian = np.empty((motions, 3)), np.empty((motions, 3)), np.empty((count, 6))
     square, step, trial = np.empty((6, 6)), np.empty(count), np.empty(count)
     for row in range(poses.shape[0]):
         q, pose = joints[row], poses[row]

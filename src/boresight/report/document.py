@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from boresight.arm.serial import corrected_chain
 from boresight.calibration.result import ErrorSummary, Residuals, Result
 from boresight.calibration.solve import Stage
 from boresight.geometry import Frame
@@ -78,6 +79,7 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
         "warnings": list(result.warnings),
         "notes": list(result.notes),
         "search": _search(result),
+        "urdf": _urdf(result),
         "inputs": dict(result.inputs),
     }
 
@@ -147,6 +149,23 @@ def _stage(stage: Stage) -> dict[str, Any]:
         "seconds": round(stage.seconds, 6),
         "evaluations": stage.evaluations,
         "outcome": stage.outcome,
+    }
+
+
+def _urdf(result: Result) -> dict[str, Any] | None:
+    """Returns the origins of the joints on the way from base to tip, before and after; None without a URDF."""
+    if result.robot_file is None:
+        return None
+    chain = result.robot_file.chain
+    corrected = corrected_chain(chain, result.nominal.arm, result.cell.arm)
+    return {
+        "file": result.robot_file.name,
+        "base": chain.base,
+        "tip": chain.tip,
+        "origins": [
+            {"joint": was.name, "type": was.type, "nominal": _frame(was.origin), "identified": _frame(now.origin)}
+            for was, now in zip(chain.joints, corrected.joints, strict=True)
+        ],
     }
 
 

@@ -12,13 +12,16 @@ from pathlib import Path
 from boresight.calibration.result import Result
 from boresight.errors import OutputError
 from boresight.files import dump_robot
+from boresight.files.splicing import calibrated_urdf
 from boresight.report.document import SCHEMA, result_json
 from boresight.report.page import render_page
 from boresight.report.tables import convergence_csv, pose_uncertainty_csv, residuals_csv
 
 RESULT_FILE = "result.json"
+URDF_FILE = "robot-calibrated.urdf"
 _OURS = (
     "robot-calibrated.yaml",
+    URDF_FILE,
     "residuals.csv",
     "convergence.csv",
     "pose-uncertainty.csv",
@@ -46,8 +49,9 @@ def write_result(result: Result, folder: Path, version: str) -> Path:
         beside = folder.resolve() if folder.name in ("", "..") else folder  # `-o .` has no name of its own
         chosen = beside.with_name(f"{beside.name}-rejected")
     check_writable(chosen)
-    contents = {
+    contents: dict[str, str | bytes] = {
         "robot-calibrated.yaml": dump_robot(result.cell.arm, _robot_comment(result)),
+        **_urdf(result),
         "residuals.csv": residuals_csv(result),
         "convergence.csv": convergence_csv(result),
         "pose-uncertainty.csv": pose_uncertainty_csv(result),
@@ -57,8 +61,13 @@ def write_result(result: Result, folder: Path, version: str) -> Path:
     try:
         chosen.mkdir(parents=True, exist_ok=True)
         with _staging(chosen) as staging:
-            for name, text in contents.items():
-                (staging / name).write_text(text, encoding="utf-8", newline="\n")
+            for name, content in contents.items():
+                if isinstance(content, bytes):
+                    (staging / name).write_bytes(content)
+                else:
+                    (staging / name).write_text(content, encoding="utf-8", newline="\n")
+            if URDF_FILE not in contents:
+                (chosen / URDF_FILE).unlink(missing_ok=True)  # an earlier result's, which is not this arm
             for name in contents:
                 os.replace(staging / name, chosen / name)
     except OSError as error:
@@ -83,6 +92,12 @@ def check_writable(folder: Path) -> None:
             f"{folder}: holds {', '.join(taken)} but no Boresight result; nothing is overwritten: name another folder "
             "with -o"
         )
+
+
+def _urdf(result: Result) -> dict[str, bytes]:
+    if result.robot_file is None:
+        return {}
+    return {URDF_FILE: calibrated_urdf(result.robot_file, result.nominal.arm, result.cell.arm)}
 
 
 def _holds_accepted(folder: Path) -> bool:

@@ -58,7 +58,8 @@ def compile_rows(cell: Cell, readings: Readings, weight: Float[np.ndarray, "rows
     count, channels = readings.values.shape
     angle = np.array([motion.turns for motion in cell.chain.motions if motion.joint is not None])
     order = [motion.joint for motion in cell.chain.motions if motion.joint is not None]
-    moved = readings.joints[:, order]
+    ratio = [motion.ratio for motion in cell.chain.motions if motion.joint is not None]
+    moved = readings.joints[:, order] * ratio
     own = np.broadcast_to(readings.target[:, None], (count, channels))
     plane = np.array([channel if readout.plane else 0 for channel, readout in enumerate(cell.sensor.readouts)])
     is_own = np.array([readout.plane is None for readout in cell.sensor.readouts])

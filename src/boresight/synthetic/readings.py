@@ -48,7 +48,7 @@ def draw_configurations(
     """
     cell = cells[0]
     limits = np.clip(cell.arm.limits, -np.pi, np.pi)
-    slides = [joint.type == "prismatic" for joint in cell.arm.joints]
+    slides = [joint.type == "prismatic" for joint in cell.arm.driven]
     limits[slides] = cell.arm.limits[slides]
     names = list(cell.targets) if cell.sensor.needs_target else [""]
     joints = np.empty((rows, len(limits)))

@@ -1,0 +1,186 @@
+"""An identified arm in the formats that others read."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from dataclasses import dataclass
+from typing import Any, Literal, get_args
+
+from boresight.arm import Arm
+from boresight.arm.common_normals import modified_dh, standard_dh
+from boresight.arm.conventions import Convention
+from boresight.arm.screws import Screws, screws_of
+from boresight.arm.serial import chain_of
+from boresight.errors import InputError
+from boresight.files.robots import dump_robot
+from boresight.files.universal_robots import (
+    calibration_conf,
+    is_universal,
+    kinematics_yaml,
+    universal_blocks,
+    universal_chain,
+)
+from boresight.files.urdf_writing import dump_urdf
+from boresight.geometry import Frame
+from boresight.report.stored import StoredResult
+
+Format = Literal["urdf", "dh", "ur-kinematics", "ur-calibration-conf", "pal", "json"]
+FORMATS: tuple[str, ...] = get_args(Format)
+
+ARM_SCHEMA = "boresight-arm/1"
+"""Name and version of the JSON export's layout."""
+
+_DELTAS = ("dx", "dy", "dz", "droll", "dpitch", "dyaw")
+
+
+@dataclass(frozen=True, slots=True)
+class Export:
+    """An exported arm.
+
+    Attributes:
+        content: the file's text or bytes.
+        notes: what a person should know about it.
+    """
+
+    content: str | bytes
+    notes: tuple[str, ...] = ()
+
+
+def export(stored: StoredResult, to: Format, convention: Convention | None = None, table: bool = False) -> Export:
+    """Returns the identified arm of a result in another format.
+
+    Args:
+        stored: the result.
+        to: the format.
+        convention: of `dh`; the arm's own by default.
+        table: `dh` as a CSV table instead of a robot.yaml.
+
+    Raises:
+        InputError: that format cannot hold this arm exactly.
+    """
+    if to == "urdf":
+        return Export(stored.urdf if stored.urdf is not None else _new_urdf(stored))
+    if to == "dh":
+        arm = in_convention(stored.identified, convention or stored.identified.convention)
+        return Export(_table(arm) if table else dump_robot(arm, _comment(stored)))
+    if to == "json":
+        return Export(json.dumps(_document(stored), indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+    if to == "pal":
+        return Export(_pal(stored))
+    if to == "ur-kinematics" and stored.origins and not is_universal(stored.nominal):
+        return _own_blocks(stored)
+    chain = universal_chain(*(in_convention(arm, "standard-dh") for arm in (stored.nominal, stored.identified)))
+    if to == "ur-calibration-conf":
+        return Export(calibration_conf(chain, _comment(stored)))
+    blocks, notes = universal_blocks(chain)
+    return Export(kinematics_yaml(blocks, _comment(stored), notes), notes)
+
+
+def in_convention(arm: Arm, convention: Convention) -> Arm:
+    """Returns the arm itself, or one in another convention that moves as it does."""
+    if arm.convention == convention:
+        return arm
+    return (standard_dh if convention == "standard-dh" else modified_dh)(screws_of(arm))
+
+
+def _comment(stored: StoredResult) -> str:
+    verdict = "accepted" if stored.accepted else "REJECTED: do not use it for work"
+    return f"{stored.name}, calibrated by Boresight ({verdict})"
+
+
+def _new_urdf(stored: StoredResult) -> str:
+    arm = in_convention(stored.identified, "standard-dh")
+    return dump_urdf(
+        chain_of(arm), f"{_comment(stored)}. Links have no shape and no mass; limits no effort, no velocity."
+    )
+
+
+def _table(arm: Arm) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["joint", "type", "theta_rad", "d_m", "a_m", "alpha_rad", "beta_rad"])
+    for joint in arm.joints:
+        writer.writerow([joint.name, joint.type, *(repr(value) for value in joint.numbers.values())])
+    return text.getvalue()
+
+
+def _pal(stored: StoredResult) -> str:
+    if not stored.origins:
+        raise InputError(
+            f"{stored.folder}: this format holds changes of a URDF's origins, and the arm came as a table; "
+            "calibrate with robot: {urdf: ...}, or export to urdf"
+        )
+    lines = [
+        *(f"# {line}" for line in _comment(stored).splitlines()),
+        "# Added to the origins of the URDF that was calibrated: metres, and radians of roll, pitch and yaw.",
+        "robot_state_publisher:",
+        "  geometric_calibration:",
+    ]
+    for joint in stored.origins:
+        was, now = ([*joint[key]["xyz"], *joint[key]["rpy"]] for key in ("nominal", "identified"))
+        if joint["type"] != "fixed" or was != now:
+            deltas = zip(_DELTAS, was, now, strict=True)
+            lines += [f"    {joint['joint']}_{delta}: {float(b) - float(a) + 0.0!r}" for delta, a, b in deltas]
+    return "\n".join(lines) + "\n"
+
+
+def _own_blocks(stored: StoredResult) -> Export:
+    """Returns the block with the URDF's own joints and origins, as other makers' descriptions read it."""
+    moving = (joint for joint in stored.origins if joint["type"] != "fixed")
+    new = {
+        joint["joint"]: Frame(tuple(joint["identified"]["xyz"]), tuple(joint["identified"]["rpy"])) for joint in moving
+    }
+    notes = tuple(
+        f"The fixed joint {joint['joint']} is new too, and not in this format: xyz {joint['identified']['xyz']} (m), "
+        f"rpy {joint['identified']['rpy']} (rad)."
+        for joint in stored.origins
+        if joint["type"] == "fixed" and joint["nominal"] != joint["identified"]
+    )
+    return Export(kinematics_yaml(new, _comment(stored), notes), notes)
+
+
+def _document(stored: StoredResult) -> dict[str, Any]:
+    return {
+        "schema": ARM_SCHEMA,
+        "name": stored.name,
+        "accepted": stored.accepted,
+        "units": {"length": "m", "angle": "rad"},
+        "nominal": _forms(stored.nominal),
+        "identified": _forms(stored.identified),
+        "urdf_origins": list(stored.origins) or None,
+    }
+
+
+def _forms(arm: Arm) -> dict[str, Any]:
+    """Returns an arm in both D-H conventions and as a product of exponentials."""
+    screws = screws_of(arm)
+    own = {convention: _links(in_convention(arm, convention)) for convention in get_args(Convention)}
+    return {**own, "product_of_exponentials": _exponentials(screws)}
+
+
+def _links(arm: Arm) -> dict[str, Any]:
+    return {
+        "root": _frame(arm.root),
+        "joints": [
+            {"name": j.name, "type": j.type, **j.numbers}
+            | ({"follows": j.follows, "ratio": j.ratio} if j.follows else {})
+            for j in arm.joints
+        ],
+        "tip": _frame(arm.tip),
+    }
+
+
+def _exponentials(screws: Screws) -> dict[str, Any]:
+    return {
+        "joints": [
+            {"name": joint.name, "v": joint.twist[:3].tolist(), "w": joint.twist[3:].tolist()}
+            for joint in screws.joints
+        ],
+        "home": screws.home.tolist(),
+    }
+
+
+def _frame(frame: Frame) -> dict[str, list[float]]:
+    return {"xyz": [float(value) for value in frame.xyz], "rpy": [float(value) for value in frame.rpy]}

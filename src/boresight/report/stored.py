@@ -1,0 +1,108 @@
+"""A result read back from its folder, as far as exporting its arm needs it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from boresight.arm import LINK_NUMBERS, Arm
+from boresight.errors import InputError, did_you_mean
+from boresight.files import load_robot
+from boresight.files.problems import printable
+from boresight.files.sources import read_source
+from boresight.report.document import SCHEMA
+from boresight.report.folder import RESULT_FILE
+
+LIMIT_MIB = 64
+
+
+@dataclass(frozen=True)
+class StoredResult:
+    """What a result folder says of its arm.
+
+    Attributes:
+        folder: where it lies.
+        name: of the campaign.
+        accepted: the verdict.
+        reasons: why, a sentence each.
+        nominal: the arm before calibration.
+        identified: the arm after it.
+        urdf: the bytes of the calibrated URDF, or None where the arm came as a table.
+        origins: of the URDF's joints, each with `joint`, `type`, `nominal` and `identified`; empty without a URDF.
+    """
+
+    folder: Path
+    name: str
+    accepted: bool
+    reasons: tuple[str, ...]
+    nominal: Arm
+    identified: Arm
+    urdf: bytes | None
+    origins: tuple[Mapping[str, Any], ...]
+
+
+def load_result(folder: Path) -> StoredResult:
+    """Returns what a folder that `write_result` wrote says of its arm.
+
+    Raises:
+        InputError: it is not such a folder, or its files do not belong together.
+    """
+    if folder.name == RESULT_FILE:
+        folder = folder.parent
+    if not (folder / RESULT_FILE).is_file():
+        wanted = "the folder that boresight calibrate wrote"
+        raise InputError(printable(f"{folder}: holds no {RESULT_FILE}{_near(folder)}; expected {wanted}"))
+    document = _document(folder)
+    identified = load_robot(folder / "robot-calibrated.yaml")
+    described = document.get("urdf")
+    try:
+        verdict = document["verdict"]
+        numbers = {parameter["name"]: parameter["nominal"] for parameter in document["parameters"]}
+        return StoredResult(
+            folder=folder,
+            name=str(document["name"]),
+            accepted=verdict["accepted"] is True,
+            reasons=tuple(map(str, verdict["reasons"])),
+            nominal=_with_numbers(identified, numbers),
+            identified=identified,
+            urdf=None if described is None else _bytes(folder / "robot-calibrated.urdf"),
+            origins=() if described is None else tuple(described["origins"]),
+        )
+    except (KeyError, TypeError, AttributeError) as error:
+        raise InputError(f"{folder / RESULT_FILE}: not a result of this version of Boresight ({error})") from None
+
+
+def _near(folder: Path) -> str:
+    """The result beside it that may have been meant."""
+    if not folder.parent.is_dir():
+        return ""
+    return did_you_mean(folder.name, (path.parent.name for path in folder.parent.glob(f"*/{RESULT_FILE}")))
+
+
+def _document(folder: Path) -> dict[str, Any]:
+    source = read_source(
+        folder / RESULT_FILE, str(folder / RESULT_FILE), kind="a result", limit_mib=LIMIT_MIB, mend="is it one?"
+    )
+    try:
+        document = json.loads(source.content)
+    except ValueError as error:
+        raise InputError(printable(f"{source.name}: not valid JSON: {error}")) from None
+    schema = document.get("schema") if isinstance(document, dict) else None
+    if schema != SCHEMA:
+        raise InputError(printable(f"{source.name}: schema {schema!r}; expected {SCHEMA}"))
+    return document
+
+
+def _with_numbers(arm: Arm, numbers: Mapping[str, float]) -> Arm:
+    joints = tuple(
+        joint.with_numbers({number: float(numbers[f"{joint.name}.{number}"]) for number in LINK_NUMBERS})
+        for joint in arm.joints
+    )
+    return replace(arm, joints=joints)
+
+
+def _bytes(path: Path) -> bytes:
+    return read_source(path, str(path), kind="a URDF file", limit_mib=LIMIT_MIB, mend="is it one?").content
