@@ -10,8 +10,13 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
+from boresight.arm.bending import HARMONICS, SAG, harmonic_motions, sag_motions
 from boresight.arm.conventions import LINK_NUMBERS, Convention, JointType, link_motions
-from boresight.arm.motions import Chain
+from boresight.arm.levers import DOWN, Levers, Triple
+from boresight.arm.motions import Chain, Motion
+
+_SHORT_M = 1e-3
+"""A link shorter than this has no lever of its own [m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +29,9 @@ class Joint:
         theta, alpha, beta: angles [rad]; a revolute joint's reading adds to theta.
         d, a: lengths [m]; a prismatic joint's reading adds to d.
         limits: lowest and highest reading [rad or m].
+        harmonics: heights [rad] of the waves `HARMONICS` that a revolute joint turns further by; none if empty.
+        sag: by number of a link, from 1, how far a revolute joint turns [rad] when that link's end stands one metre
+            out horizontally, square to the axis; none if empty.
     """
 
     name: str
@@ -34,6 +42,21 @@ class Joint:
     alpha: float = 0.0
     beta: float = 0.0
     limits: tuple[float, float] = (-math.pi, math.pi)
+    harmonics: tuple[float, ...] = ()
+    sag: tuple[tuple[int, float], ...] = ()
+
+    def corrected(self, corrections: Mapping[str, float]) -> Joint:
+        """Returns the joint with corrections [rad or m] added to its parameters, by full name (`j2.beta`)."""
+
+        def added(value: float, parameter: str) -> float:
+            return value + corrections.get(f"{self.name}.{parameter}", 0.0)
+
+        return replace(
+            self,
+            **{number: added(getattr(self, number), number) for number in LINK_NUMBERS},
+            harmonics=tuple(added(h, wave) for wave, h in zip(HARMONICS, self.harmonics, strict=False)),
+            sag=tuple((link, added(turn, f"{SAG}{link}")) for link, turn in self.sag),
+        )
 
 
 @dataclass(frozen=True)
@@ -44,23 +67,73 @@ class Arm:
         name: what it is called.
         joints: from the base outwards.
         convention: how the links' numbers are read.
+        gravity: its direction in the arm's base, a unit vector; matters where some joint sags.
     """
 
     name: str
     joints: tuple[Joint, ...]
     convention: Convention = "standard-dh"
+    gravity: Triple = DOWN
 
     @cached_property
     def chain(self) -> Chain:
         """The arm's elementary motions from its base to its tool."""
-        motions = tuple(
-            motion
-            for index, joint in enumerate(self.joints)
-            for motion in link_motions(
-                self.convention, joint.type, index, joint.name, {n: getattr(joint, n) for n in LINK_NUMBERS}
-            )
+        motions = tuple(motion for place in range(len(self.joints)) for motion in self._motions(place))
+        levers = Levers(self._rigid, self.gravity) if any(joint.sag for joint in self.joints) else None
+        return Chain(motions, len(self.joints), levers)
+
+    @property
+    def _rigid(self) -> Chain:
+        """The chain of an arm that does not give way."""
+        motions = (motion for place in range(len(self.joints)) for motion in self._link_motions(place))
+        return Chain(tuple(motions), len(self.joints))
+
+    def _link_motions(self, place: int) -> tuple[Motion, ...]:
+        joint = self.joints[place]
+        numbers = {number: getattr(joint, number) for number in LINK_NUMBERS}
+        return link_motions(self.convention, joint.type, place, joint.name, numbers)
+
+    def _motions(self, place: int) -> tuple[Motion, ...]:
+        """Returns a joint's motions, what turns it further beside its own turn."""
+        joint, links = self.joints[place], self._link_motions(place)
+        further = harmonic_motions(place, joint.name, joint.harmonics) if joint.harmonics else ()
+        further += sag_motions(place, joint.name, joint.sag)
+        turn = next(i for i, motion in enumerate(links) if motion.joint is not None) + 1
+        return links[:turn] + further + links[turn:]
+
+    def with_harmonics(self) -> Arm:
+        """Returns the arm whose revolute joints all have harmonics, new ones of no height."""
+        none = (0.0,) * len(HARMONICS)
+        return replace(
+            self,
+            joints=tuple(
+                replace(joint, harmonics=joint.harmonics or none) if joint.type == "revolute" else joint
+                for joint in self.joints
+            ),
         )
-        return Chain(motions, len(self.joints))
+
+    def with_sag(self, gravity: Triple | None = None) -> Arm:
+        """Returns the arm whose revolute joints all may sag under every link that has a length, new ones by nothing.
+
+        Args:
+            gravity: its direction in the arm's base; by default as it was.
+        """
+        long = [number for number in range(1, len(self.joints) + 1) if self._length(number) > _SHORT_M]
+        return replace(
+            self,
+            gravity=gravity or self.gravity,
+            joints=tuple(
+                replace(joint, sag=tuple((link, dict(joint.sag).get(link, 0.0)) for link in long if link > place))
+                if joint.type == "revolute"
+                else joint
+                for place, joint in enumerate(self.joints)
+            ),
+        )
+
+    def _length(self, number: int) -> float:
+        """Returns how far [m] a link, by number from 1, leads from its joint to the next."""
+        place = number - 1 if self.convention == "standard-dh" else number
+        return math.hypot(self.joints[place].a, self.joints[place].d) if place < len(self.joints) else 0.0
 
     @property
     def joint_names(self) -> tuple[str, ...]:
@@ -88,13 +161,4 @@ class Arm:
         Args:
             corrections: by parameter name (`j2.beta`); names of other things than this arm's are ignored.
         """
-        return replace(
-            self,
-            joints=tuple(
-                replace(
-                    joint,
-                    **{n: getattr(joint, n) + corrections.get(f"{joint.name}.{n}", 0.0) for n in LINK_NUMBERS},
-                )
-                for joint in self.joints
-            ),
-        )
+        return replace(self, joints=tuple(joint.corrected(corrections) for joint in self.joints))

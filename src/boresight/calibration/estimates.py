@@ -38,7 +38,7 @@ def estimates_of(
         unknown: parameters the files called unknown.
     """
     std = dict(zip(problem.names, np.sqrt(np.diag(covariance)), strict=True))
-    source = dict(zip(problem.names, sources(np.sqrt(np.diag(covariance)), problem.prior_std), strict=True))
+    source = dict(zip(problem.names, sources(np.sqrt(np.diag(covariance)), problem.believed_std), strict=True))
     for name, frame in (("base", identified.base), ("mount", identified.mount)):
         std |= _rpy_std(name, frame, problem.names, covariance)
     listed = []

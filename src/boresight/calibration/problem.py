@@ -69,9 +69,15 @@ class Problem:
         return [self.cell.index[name] for name in self.names]
 
     @cached_property
-    def prior_std(self) -> Float[np.ndarray, "parameters"]:
-        """Prior standard deviations, infinite where nothing is believed."""
+    def believed_std(self) -> Float[np.ndarray, "parameters"]:
+        """Standard deviations of what was believed before any reading, infinite where nothing was."""
         return np.array([np.inf if f.prior_std is None else f.prior_std for f in self.freedoms])
+
+    @cached_property
+    def prior_std(self) -> Float[np.ndarray, "parameters"]:
+        """Standard deviations that hold the parameters: learned or believed; infinite where neither."""
+        learned = [np.nan if f.learned_std is None else f.learned_std for f in self.freedoms]
+        return np.where(np.isnan(learned), self.believed_std, learned)
 
     @cached_property
     def half_width(self) -> Float[np.ndarray, "parameters"]:
