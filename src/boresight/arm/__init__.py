@@ -4,6 +4,7 @@ from boresight.arm.arm import Arm as Arm
 from boresight.arm.arm import Joint as Joint
 from boresight.arm.bending import HARMONICS as HARMONICS
 from boresight.arm.bending import SAG as SAG
+from boresight.arm.bending import is_further as is_further
 from boresight.arm.conventions import LINK_NUMBERS as LINK_NUMBERS
 from boresight.arm.levers import DOWN as DOWN
 from boresight.arm.motions import Chain as Chain

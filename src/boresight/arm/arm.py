@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 from boresight.arm.bending import HARMONICS, SAG, harmonic_motions, sag_motions
 from boresight.arm.conventions import LINK_NUMBERS, Convention, JointType, link_motions
-from boresight.arm.levers import DOWN, Levers, Triple
+from boresight.arm.levers import DOWN, TIP_M, Levers, Triple
 from boresight.arm.motions import Chain, Motion
 
 _SHORT_M = 1e-3
@@ -84,9 +84,9 @@ class Arm:
 
     @property
     def _rigid(self) -> Chain:
-        """The chain of an arm that does not give way."""
-        motions = (motion for place in range(len(self.joints)) for motion in self._link_motions(place))
-        return Chain(tuple(motions), len(self.joints))
+        """The chain of an arm that does not give way, to the tip of its last link."""
+        motions = tuple(motion for place in range(len(self.joints)) for motion in self._link_motions(place))
+        return Chain((*motions, Motion(turns=False, axis=2, value=TIP_M)), len(self.joints))
 
     def _link_motions(self, place: int) -> tuple[Motion, ...]:
         joint = self.joints[place]
@@ -112,28 +112,30 @@ class Arm:
             ),
         )
 
-    def with_sag(self, gravity: Triple | None = None) -> Arm:
-        """Returns the arm whose revolute joints all may sag under every link that has a length, new ones by nothing.
+    def weightless(self) -> Arm:
+        """Returns the arm as it is where there is no gravity."""
+        return replace(self, joints=tuple(replace(joint, sag=()) for joint in self.joints))
 
-        Args:
-            gravity: its direction in the arm's base; by default as it was.
-        """
-        long = [number for number in range(1, len(self.joints) + 1) if self._length(number) > _SHORT_M]
-        return replace(
-            self,
-            gravity=gravity or self.gravity,
-            joints=tuple(
-                replace(joint, sag=tuple((link, dict(joint.sag).get(link, 0.0)) for link in long if link > place))
-                if joint.type == "revolute"
-                else joint
-                for place, joint in enumerate(self.joints)
-            ),
+    def with_sag(self) -> Arm:
+        """Returns the arm whose revolute joints all may sag under every link that has a length, new ones by nothing."""
+        joints = tuple(
+            replace(joint, sag=self._sag(place)) if joint.type == "revolute" else joint
+            for place, joint in enumerate(self.joints)
         )
+        return replace(self, joints=joints)
 
-    def _length(self, number: int) -> float:
-        """Returns how far [m] a link, by number from 1, leads from its joint to the next."""
-        place = number - 1 if self.convention == "standard-dh" else number
-        return math.hypot(self.joints[place].a, self.joints[place].d) if place < len(self.joints) else 0.0
+    def _sag(self, place: int) -> tuple[tuple[int, float], ...]:
+        """Returns how a joint sags under every link from its own on that has a length, and those it has already."""
+        known = dict(self.joints[place].sag)
+        beyond = range(place + 1, len(self.joints) + 1)
+        return tuple((link, known.get(link, 0.0)) for link in beyond if link in known or self._has_length(link))
+
+    def _has_length(self, link: int) -> bool:
+        """Returns whether a link, by number from 1, leads from its joint to another place; the last one has its tip."""
+        if link == len(self.joints):
+            return True
+        joint = self.joints[link - 1 if self.convention == "standard-dh" else link]
+        return joint.type == "prismatic" or math.hypot(joint.a, joint.d) > _SHORT_M
 
     @property
     def joint_names(self) -> tuple[str, ...]:

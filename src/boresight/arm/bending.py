@@ -21,6 +21,12 @@ SAG = "sag"
 """What a joint's yielding is called, the number of the link after it."""
 
 
+def is_further(parameter: str) -> bool:
+    """Returns whether a parameter, by full name, turns a joint beside its reading."""
+    number = parameter.rpartition(".")[2]
+    return number in HARMONICS or number.startswith(SAG)
+
+
 @dataclass(frozen=True, slots=True)
 class Harmonic:
     """A wave of a joint's reading.

@@ -25,13 +25,17 @@ Triple = tuple[float, float, float]
 DOWN: Triple = (0.0, 0.0, -1.0)
 """Gravity's direction in the base of an arm that stands level."""
 
+TIP_M = 0.1
+"""How far beyond the last frame, along its z, the last link's end is taken to be [m]: about where a tool's weight is.
+Some conventions have all of the last link's length in the tool, and with it any lever of it."""
+
 
 @dataclass(frozen=True)
 class Levers:
     """The moments about a rigid arm's joints of a unit weight at each link's end.
 
     Attributes:
-        chain: the rigid arm, from its base to the end of its last link.
+        chain: the rigid arm, from its base to the tip of its last link.
         gravity: its direction in the arm's base, a unit vector.
     """
 

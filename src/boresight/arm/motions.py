@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from boresight.arm.levers import Levers
 
 
+@runtime_checkable
 class Factor(Protocol):
     """What a configuration multiplies a motion's amount by."""
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
+from boresight.arm import is_further
 from boresight.calibration.problem import Problem
 from boresight.calibration.result import Estimate
 from boresight.geometry import Frame
@@ -27,6 +28,8 @@ def estimates_of(
 ) -> tuple[Estimate, ...]:
     """Returns an estimate of every parameter that is free or belongs to the arm or a target.
 
+    What could turn a joint further, but was neither added nor there before, is left out.
+
     Turns of a frame are listed as its roll, pitch and yaw, their deviations carried over from the turns about
     its own axes that were fitted.
 
@@ -45,6 +48,8 @@ def estimates_of(
     for parameter in problem.cell.parameters:
         owner = parameter.name.split(".")[0]
         if owner in ("base", "mount", SENSOR) and parameter.name not in std:
+            continue
+        if is_further(parameter.name) and parameter.name not in std and not identified.values[parameter.name]:
             continue
         found, given = identified.values[parameter.name], believed.values[parameter.name]
         estimate = Estimate(

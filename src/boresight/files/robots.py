@@ -6,7 +6,7 @@ import json
 import math
 from pathlib import Path
 
-from boresight.arm import LINK_NUMBERS, Arm, Joint
+from boresight.arm import DOWN, HARMONICS, LINK_NUMBERS, Arm, Joint
 from boresight.errors import InputError
 from boresight.files.documents import Document, read_document
 from boresight.files.explaining import validated
@@ -39,9 +39,11 @@ def arm_of(document: Document) -> Arm:
     problems.extend(_repeated_names(document))
     with problems.gathered():
         entry = validated(document, RobotEntry)
+        problems.extend(_sag_out_of_place(document, entry))
     problems.raise_if_any()
     units = entry.units.value
-    return Arm(entry.name, tuple(_joint(joint, units) for joint in entry.joints), entry.convention)
+    joints = tuple(_joint(joint, units) for joint in entry.joints)
+    return Arm(entry.name, joints, entry.convention, entry.gravity or DOWN)
 
 
 def dump_robot(arm: Arm, header_comment: str = "") -> str:
@@ -57,13 +59,24 @@ def dump_robot(arm: Arm, header_comment: str = "") -> str:
         f"name: {_quoted(arm.name)}",
         "units: {length: m, angle: rad}",
         f"convention: {arm.convention}",
+        *([f"gravity: {list(map(float, arm.gravity))}"] if any(joint.sag for joint in arm.joints) else []),
         "joints:",
     ]
     for joint in arm.joints:
         links = ", ".join(f"{number}: {float(getattr(joint, number))!r}" for number in numbers)
         low, high = map(float, joint.limits)
-        lines.append(f"  - {{name: {_quoted(joint.name)}, type: {joint.type}, {links}, limits: [{low!r}, {high!r}]}}")
+        lines.append(
+            f"  - {{name: {_quoted(joint.name)}, type: {joint.type}, {links}, limits: [{low!r}, {high!r}]"
+            f"{_further(joint)}}}"
+        )
     return "\n".join(lines) + "\n"
+
+
+def _further(joint: Joint) -> str:
+    """Returns what turns a joint beside its reading, as further keys; what is 0 turns nothing."""
+    waves = "".join(f", {wave}: {float(h)!r}" for wave, h in zip(HARMONICS, joint.harmonics, strict=False) if h)
+    sag = ", ".join(f"{link}: {float(turn)!r}" for link, turn in joint.sag if turn)
+    return waves + (f", sag: {{{sag}}}" if sag else "")
 
 
 def _quoted(name: str) -> str:
@@ -78,7 +91,20 @@ def _joint(entry: JointEntry, units: Units) -> Joint:
     }
     scale = units.radians if entry.type == "revolute" else units.metres
     low, high = (limit * scale for limit in entry.limits) if entry.limits else (-math.pi, math.pi)
-    return Joint(entry.name, entry.type, limits=(low, high), **numbers)
+    harmonics = tuple(height * units.radians for height in entry.harmonics)
+    sag = tuple((link, turn * units.radians) for link, turn in entry.sag)
+    return Joint(entry.name, entry.type, limits=(low, high), harmonics=harmonics, sag=sag, **numbers)
+
+
+def _sag_out_of_place(document: Document, entry: RobotEntry) -> list[str]:
+    """Joints said to sag under links that do not come after them, or do not exist."""
+    return [
+        f"{document.at(('joints', place, 'sag'))}{shown(joint.name)} sags under link {link}; expected its own link, "
+        f"{place + 1}, or one after it, to {len(entry.joints)}"
+        for place, joint in enumerate(entry.joints)
+        for link, _ in joint.sag
+        if not place < link <= len(entry.joints)
+    ]
 
 
 def _repeated_names(document: Document) -> list[str]:
