@@ -100,12 +100,23 @@ def go_beyond(fit: Fit, terms: tuple[Term, ...], learn: bool, seed: int) -> tupl
     """
     if not terms or fit.problem.model_std == 0.0 or np.count_nonzero(fit.kept) < FEWEST_ROWS:
         return fit, None
-    near = neighbourhood_of(fit, terms, learn)
-    trials, chosen = _tried(near, terms, seed)
-    learned: Mapping[str, float] = {}
-    for _ in range(2 if chosen or learn else 0):  # once more, from where rows are weighed by the better model
-        fit, learned = _refitted(fit, neighbourhood_of(fit, chosen, learn).distinct(), chosen)
-    return fit, Beyond(trials, chosen, learned)
+    trials, chosen = _tried(neighbourhood_of(fit, terms, learn), terms, seed)
+    further, learned = fitted_with(fit, chosen, learn)
+    return further, Beyond(trials, chosen, learned)
+
+
+def fitted_with(fit: Fit, terms: tuple[Term, ...], learn: bool) -> tuple[Fit, dict[str, float]]:
+    """Returns the full fit of geometry and some terms, and the standard deviations learned for it.
+
+    Args:
+        fit: of the geometry.
+        terms: what is added, whether or not it pays.
+        learn: whether the geometry's own standard deviations are learned too.
+    """
+    learned: dict[str, float] = {}
+    for _ in range(2 if terms or learn else 0):  # once more, from where rows are weighed by the better model
+        fit, learned = _refitted(fit, neighbourhood_of(fit, terms, learn).distinct(), terms)
+    return fit, learned
 
 
 def _tried(near: Neighbourhood, terms: tuple[Term, ...], seed: int) -> tuple[tuple[Trial, ...], tuple[Term, ...]]:
