@@ -4,7 +4,7 @@
   position errors on the campaign's validation rows, which no choice sees. `geometry` is the geometric fit as it was;
   in the other models standard deviations are learned. `set free` are harmonics with nothing that holds them.
 - *Light arms*: MuJoCo's, with masses, centres of mass and springs of their own, from the tests.
-- *False alarms*: an arm with neither, whose readings are worse than their stated noise, so that something is looked for.
+- *False alarms*: an arm with neither, whose readings are worse than their stated noise, so that both are tried.
 """
 
 from __future__ import annotations
@@ -32,7 +32,12 @@ from boresight.files import load_campaign
 
 ROOT = Path(__file__).parents[1]
 UR10 = ROOT / "examples" / "ur10-laser-tracker"
-MODELS: dict[str, tuple[Term, ...]] = {"learned": (), "gravity": ("gravity",), "harmonics": ("harmonics",), "both": TERMS}
+MODELS: dict[str, tuple[Term, ...]] = {
+    "learned": (),
+    "gravity": ("gravity",),
+    "harmonics": ("harmonics",),
+    "both": TERMS,
+}
 UNMODELLED_M = 2.5e-4
 """Standard deviation of the errors that no model explains, in the study of false alarms [m]."""
 
@@ -125,9 +130,14 @@ def run(quick: bool) -> Report:
         for name, file in (("random poses", "campaign.yaml"), ("grid", "grid.yaml"))
     }
     arms = [
-        dict(name=name, rows=rows, weight=0.2, seed=1) for name in ("iiwa14", "panda", "ur10", "puma560") for rows in (60, 200)
+        {"name": name, "rows": rows, "weight": 0.2, "seed": 1}
+        for name in ("iiwa14", "panda", "ur10", "puma560")
+        for rows in (60, 200)
     ]
-    arms += [dict(name="iiwa14", rows=100, weight=0.2, ranger=True), dict(name="iiwa14", rows=200, weight=0.2, waves=1e-4)]
+    arms += [
+        {"name": "iiwa14", "rows": 100, "weight": 0.2, "ranger": True},
+        {"name": "iiwa14", "rows": 200, "weight": 0.2, "waves": 1e-4},
+    ]
     found = on_all_cores(light, arms)
     added = {rows: Counter(on_all_cores(partial(false_alarm, rows=rows), range(alarms))) for rows in (60, 200)}
     return Report(
@@ -135,8 +145,12 @@ def run(quick: bool) -> Report:
         "See the module's docstring. RMS / worst, mm.",
         _figures(whole, added, alarms),
         (
-            Table("Real arm", ("rows", *_names(whole), "added"), tuple(_row(name, [each]) for name, each in whole.items())),
-            Table("Real arm, few rows", ("rows", *_names(whole), "added"), tuple(_row(*each) for each in drawn.items())),
+            Table(
+                "Real arm", ("rows", *_names(whole), "added"), tuple(_row(name, [each]) for name, each in whole.items())
+            ),
+            Table(
+                "Real arm, few rows", ("rows", *_names(whole), "added"), tuple(_row(*each) for each in drawn.items())
+            ),
             Table(
                 "Light arms in MuJoCo",
                 ("arm", "geometry", "chosen", "added"),

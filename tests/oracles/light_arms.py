@@ -119,7 +119,11 @@ def light_campaign(
     poses = settled(truth, weights, turned)
     values = _values(truth, poses, target)
     readings = Readings(
-        joints, values + rng.normal(0.0, noise, values.shape), np.full(values.shape, noise), target, np.arange(len(joints))
+        joints,
+        values + rng.normal(0.0, noise, values.shape),
+        np.full(values.shape, noise),
+        target,
+        np.arange(len(joints)),
     )
     axes = ("x", "y", "z", "roll", "pitch", "yaw")
     unknown = {f"base.{axis}" for axis in axes} | {f"mount.{axis}" for axis in axes[:3]}

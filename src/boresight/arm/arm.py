@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
@@ -51,9 +52,10 @@ class Joint:
         def added(value: float, parameter: str) -> float:
             return value + corrections.get(f"{self.name}.{parameter}", 0.0)
 
+        numbers: dict[str, Any] = {number: added(getattr(self, number), number) for number in LINK_NUMBERS}
         return replace(
             self,
-            **{number: added(getattr(self, number), number) for number in LINK_NUMBERS},
+            **numbers,
             harmonics=tuple(added(h, wave) for wave, h in zip(HARMONICS, self.harmonics, strict=False)),
             sag=tuple((link, added(turn, f"{SAG}{link}")) for link, turn in self.sag),
         )

@@ -80,6 +80,4 @@ def harmonic_motions(joint: int, name: str, heights: tuple[float, ...]) -> tuple
 
 def sag_motions(joint: int, name: str, sag: tuple[tuple[int, float], ...]) -> tuple[Motion, ...]:
     """Returns the turns about a joint's z under links, by number from 1, each with its turn [rad] for a metre out."""
-    return tuple(
-        Motion(True, 2, turn, f"{name}.{SAG}{link}", factor=Lever(joint, link - 1)) for link, turn in sag
-    )
+    return tuple(Motion(True, 2, turn, f"{name}.{SAG}{link}", factor=Lever(joint, link - 1)) for link, turn in sag)

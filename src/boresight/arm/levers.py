@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float, Int
 
 from boresight.arm.motions import Chain, Walk
 
@@ -57,7 +57,9 @@ class Levers:
         """
         walk = self.chain.walk(joints, corrections)
         across = self._across(walk)
-        moments = np.einsum("rid,rjd->rij", across, walk.ends) - np.einsum("rid,rid->ri", across, walk.origins)[..., None]
+        moments = (
+            np.einsum("rid,rjd->rij", across, walk.ends) - np.einsum("rid,rid->ri", across, walk.origins)[..., None]
+        )
         return np.where(self._beyond, moments, 0.0)
 
     def slopes(
@@ -93,19 +95,19 @@ class Levers:
         return np.cross(np.array(self.gravity), walk.axes)
 
     @cached_property
-    def _beyond(self) -> np.ndarray:
+    def _beyond(self) -> Bool[np.ndarray, "joints joints"]:
         count = self.chain.joints
         return np.triu(np.ones((count, count), dtype=bool))
 
-    def _moved_by(self, places: np.ndarray) -> Float[np.ndarray, "rigid things"]:
+    def _moved_by(self, places: Int[np.ndarray, "things"]) -> Bool[np.ndarray, "rigid things"]:
         """Returns whether each parameter's motion comes before each of some places in the chain."""
         own = np.array([place for place, motion in enumerate(self.chain.motions) if motion.parameter is not None])
         return own[:, None] < places[None, :]
 
     @cached_property
-    def _joint_places(self) -> np.ndarray:
+    def _joint_places(self) -> Int[np.ndarray, "joints"]:
         return np.array([place for place, motion in enumerate(self.chain.motions) if motion.joint is not None])
 
     @cached_property
-    def _end_places(self) -> np.ndarray:
+    def _end_places(self) -> Int[np.ndarray, "joints"]:
         return np.append(self._joint_places[1:], len(self.chain.motions))

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
@@ -221,7 +221,7 @@ class Chain:
             moments = self.levers.moments(joints, self._rigid_part(corrections))
         column = 0
         for motion in self.motions:
-            amount = motion.value
+            amount: Any = motion.value
             if motion.parameter is not None:
                 if corrections is not None:
                     amount = amount + corrections[column]

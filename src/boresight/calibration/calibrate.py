@@ -86,7 +86,9 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
             uncalibrated_in_words(in_workspace) if unseen else None,
             beyond.chosen if beyond is not None else (),
         ),
-        estimates=estimates_of(problem, identified, covariance, replace(campaign.cell, arm=nominal.arm), campaign.unknown),
+        estimates=estimates_of(
+            problem, identified, covariance, replace(campaign.cell, arm=nominal.arm), campaign.unknown
+        ),
         free=len(problem.names),
         rank=found.rank,
         unseen=unseen,

@@ -8,7 +8,6 @@ from typing import Literal
 
 from boresight.sensing import Cell, Readings
 
-
 Term = Literal["gravity", "harmonics"]
 TERMS: tuple[Term, ...] = ("gravity", "harmonics")
 """What bends or turns a joint beside its geometry."""

@@ -65,9 +65,7 @@ def improvement(held_out: HeldOut, seed: int) -> Improvement:
     return Improvement(_ratio(before, after), float(low), float(high))
 
 
-def judge(
-    held_out: HeldOut, fit: Fit, seed: int, uncalibrated: str | None, beyond: tuple[Term, ...] = ()
-) -> Verdict:
+def judge(held_out: HeldOut, fit: Fit, seed: int, uncalibrated: str | None, beyond: tuple[Term, ...] = ()) -> Verdict:
     """Returns the verdict and its reasons.
 
     Args:
