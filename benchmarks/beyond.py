@@ -118,7 +118,7 @@ def false_alarm(seed: int, rows: int) -> str:
 
 def run(quick: bool) -> Report:
     """Returns what each addition buys."""
-    again, alarms = (2, 6) if quick else (20, 60)
+    again, alarms = (2, 6) if quick else (8, 24)
     splits: dict[str, Callable[[], Outcome]] = {
         "random poses, 400 rows": partial(ur10, "campaign.yaml", None),
         "grid, 600 rows": partial(ur10, "grid.yaml", None),

@@ -55,12 +55,19 @@ class Weights:
         return cls(masses, centres, STIFFNESS * rng.uniform(0.5, 1.5, count), 9.81 * np.array(down))
 
 
-def settled(cell: Cell, weights: Weights, joints: np.ndarray) -> np.ndarray:
-    """Returns the sensor's poses in the world where springs and weights balance."""
+def weighed_model(cell: Cell, weights: Weights) -> mujoco.MjModel:
+    """Returns the cell in MuJoCo with its weights."""
     model = mujoco.MjModel.from_xml_string(mjcf(cell))
     moving = model.jnt_bodyid
     model.body_mass[moving], model.body_ipos[moving] = weights.masses, weights.centres
+    model.body_sameframe[moving] = 0  # else centres of mass that were compiled at the origin stay there
     model.opt.gravity[:] = weights.gravity
+    return model
+
+
+def settled(cell: Cell, weights: Weights, joints: np.ndarray) -> np.ndarray:
+    """Returns the sensor's poses in the world where springs and weights balance."""
+    model = weighed_model(cell, weights)
     data = mujoco.MjData(model)
     poses = np.tile(np.eye(4), (len(joints), 1, 1))
     for row, commanded in enumerate(joints):

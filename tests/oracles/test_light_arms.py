@@ -3,9 +3,10 @@
 import json
 from dataclasses import replace
 
+import mujoco
 import numpy as np
 import pytest
-from light_arms import Weights, light_campaign, settled
+from light_arms import Weights, light_campaign, settled, weighed_model
 
 import boresight
 from boresight.arm import catalogue
@@ -40,13 +41,8 @@ def test_moments_of_unit_weights_equal_mujocos():
 
 def settled_turns(cell, weights, joints):
     """How far each joint gives way in MuJoCo [rad]: from the torques that hold the arm where it was commanded to be."""
-    import mujoco
-    from independent_arms import mjcf
-
-    model = mujoco.MjModel.from_xml_string(mjcf(cell))
-    model.body_mass[model.jnt_bodyid], model.body_ipos[model.jnt_bodyid] = weights.masses, weights.centres
+    model = weighed_model(cell, weights)
     model.body_inertia[:] = 1e-9
-    model.opt.gravity[:] = weights.gravity
     data, turns = mujoco.MjData(model), []
     for row in joints:
         data.qpos[:] = row
@@ -58,7 +54,7 @@ def settled_turns(cell, weights, joints):
 @pytest.fixture(scope="module")
 def light():
     """An iiwa and a tracker, neither of whose places is known, and the result."""
-    campaign = light_campaign("iiwa14", rows=60, weight=0.2, seed=1)
+    campaign = light_campaign("iiwa14", rows=60, weight=0.165, seed=1)
     return campaign, calibrate(campaign, QUICK)
 
 
