@@ -81,3 +81,23 @@ def test_the_fitted_cell_predicts_what_the_problem_does():
     fitted = problem.fitted(x)
     rows = problem.readings
     assert np.allclose(fitted.predict(rows.joints, rows.target) - rows.values, problem.errors(x), atol=1e-12)
+
+
+@pytest.mark.parametrize("kind", ["ranger", "position"])
+def test_the_compiled_cost_knows_how_far_a_bent_arm_bends(kind):
+    problem = problem_of(kind)
+    arm = problem.cell.arm.with_harmonics().with_sag()
+    further = [n for n in arm.chain.parameters if n.rpartition(".")[2][:3] in ("cos", "sin", "sag")]
+    arm = arm.corrected(dict.fromkeys(further, 1e-3))
+    bent = replace(problem, cell=replace(problem.cell, arm=arm))
+    nominal = np.zeros(len(problem.names))
+    squares = np.nansum((bent.errors(nominal) * bent.usual_std / bent.std) ** 2)
+    assert squares > 1e2 * np.nansum((problem.errors(nominal) * problem.usual_std / problem.std) ** 2)
+    assert bent.cost(nominal[None])[0] == pytest.approx(squares, rel=1e-9)
+
+
+def test_what_is_learned_holds_in_place_of_what_was_believed():
+    problem = problem_of("position")
+    learned = replace(problem, freedoms=tuple(replace(f, learned_std=1e-4) for f in problem.freedoms))
+    assert np.all(learned.prior_std == 1e-4)
+    assert np.array_equal(learned.believed_std, problem.prior_std)

@@ -143,6 +143,17 @@ def test_a_joint_that_follows_another_moves_with_it():
     assert np.abs(off).max() < 1e-9
 
 
+def test_an_arm_that_bends_is_put_there_too():
+    arm = catalogue.load("iiwa14")
+    terms = {"joint_a2.cos1": 3e-4, "joint_a4.sin2": -2e-4, "joint_a2.sag5": 4e-4, "joint_a4.sag7": 3e-4}
+    real = bent(arm).with_harmonics().with_sag().corrected(terms)
+    assert np.abs(real.bends(program(arm, 20))).max() > 1e-4
+    found = compensate(arm, real, joints=program(arm, 100))
+    there = found.reached <= Reached.NEAR_SINGULAR
+    assert there.mean() > 0.9
+    assert np.abs(real.forward_kinematics(found.joints) - found.poses)[there].max() < 2e-8
+
+
 def test_a_joint_without_limits_may_turn_on():
     arm = catalogue.load("puma560")
     free = Arm("free", tuple(Joint(**{**vars_of(joint), "limits": (-np.inf, np.inf)}) for joint in arm.joints))

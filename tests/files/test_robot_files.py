@@ -66,7 +66,8 @@ def test_all_faults_of_a_robot_are_told_at_once(problems, robot_with):
         "the lower limit and then the upper: [-170, 170]; or none",
         "robot.yaml, line 5: joints[1].a: got '400'; expected a number",
         "robot.yaml, line 5: joints[1].bta: unknown key (did you mean beta?); "
-        "expected one of name, type, theta, d, a, alpha, beta, limits, follows, ratio",
+        "expected one of name, type, theta, d, a, alpha, beta, "
+        "cos1, sin1, cos2, sin2, sag, limits, follows, ratio",
     )
 
 

@@ -20,12 +20,14 @@ def numeric_jacobian(cell, joints, target, corrections):
     return np.stack(columns, axis=-1)
 
 
+@pytest.mark.parametrize("bent", [False, True])
 @pytest.mark.parametrize("sensor", ["laser_ranger", "position"])
 @pytest.mark.parametrize("convention", CONVENTIONS)
 @pytest.mark.parametrize("joints", [1, 3, 6, 8])
-def test_jacobian_equals_finite_differences(joints, convention, sensor):
+def test_jacobian_equals_finite_differences(joints, convention, sensor, bent):
     rng = np.random.default_rng([joints, CONVENTIONS.index(convention), sensor == "position", 5])
-    cell = random_cell(rng, planes=3, sensor=sensor, arm=random_arm(rng, joints, convention))
+    arm = random_arm(rng, joints, convention)
+    cell = random_cell(rng, planes=3, sensor=sensor, arm=arm.with_harmonics().with_sag() if bent else arm)
     readings, target = random_joints(rng, cell.arm, 40), random_targets(rng, cell, 40)
     normals = np.array([plane.normal for plane in cell.targets.values()])[target]
     steep = np.abs(np.sum(normals * cell.poses(readings)[:, :3, 2], axis=1)) > 0.3

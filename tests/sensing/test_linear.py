@@ -1,5 +1,6 @@
 """The compiled model against the NumPy one, over everything a cell can be."""
 
+import numpy as np
 import pytest
 
 from boresight.sensing import Readings

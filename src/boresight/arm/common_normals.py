@@ -162,7 +162,8 @@ def _line(screw: Screw) -> Line:
 
 def _joint(screw: Screw, numbers) -> Joint:
     links = dict(zip(LINK_NUMBERS, map(_tidy, numbers), strict=True))
-    return Joint(screw.name, screw.type, limits=screw.limits, follows=screw.follows, ratio=screw.ratio, **links)
+    joint = Joint(screw.name, screw.type, limits=screw.limits, follows=screw.follows, ratio=screw.ratio)
+    return joint.with_numbers(links)
 
 
 def _frame(T: Float[np.ndarray, "4 4"]) -> Frame:

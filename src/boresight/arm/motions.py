@@ -11,12 +11,37 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
 
 from boresight.geometry import Frame
 from boresight.units import Quantity
+
+if TYPE_CHECKING:
+    from boresight.arm.levers import Levers
+
+
+@runtime_checkable
+class Factor(Protocol):
+    """What a configuration multiplies a motion's amount by."""
+
+    @property
+    def joint(self) -> int:
+        """The column of the joint readings whose axis the motion turns about."""
+        ...
+
+    @property
+    def link(self) -> int | None:
+        """The link whose weight it is the lever of, or None."""
+        ...
+
+    def of(
+        self, joints: Float[np.ndarray, "rows joints"], moments: Float[np.ndarray, "rows joints links"] | None
+    ) -> Float[np.ndarray, "rows"]:
+        """Returns it for every row, from the readings [rad or m] and the moments of gravity [m] where there are any."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +55,7 @@ class Motion:
         parameter: the name under which the amount can be corrected, or None.
         joint: the column of the joint readings that adds to the amount, or None.
         ratio: what the reading is multiplied by; 1 unless the joint mimics another.
+        factor: what the amount is multiplied by in each configuration, or None.
     """
 
     turns: bool
@@ -38,6 +64,7 @@ class Motion:
     parameter: str | None = None
     joint: int | None = None
     ratio: float = 1.0
+    factor: Factor | None = None
 
     @property
     def quantity(self) -> Quantity:
@@ -59,6 +86,23 @@ class Linearisation:
     twists: Float[np.ndarray, "rows parameters 6"]
 
 
+@dataclass(frozen=True, slots=True)
+class Walk:
+    """What is passed on the way from the base to the tool.
+
+    Attributes:
+        axes: (rows, joints, 3) the joints' axes.
+        origins: (rows, joints, 3) where they are [m].
+        ends: (rows, joints, 3) where each joint's link ends [m]: at the next joint, or with the chain.
+        twists: (rows, parameters, 6) as in `Linearisation`.
+    """
+
+    axes: Float[np.ndarray, "rows joints 3"]
+    origins: Float[np.ndarray, "rows joints 3"]
+    ends: Float[np.ndarray, "rows joints 3"]
+    twists: Float[np.ndarray, "rows parameters 6"]
+
+
 @dataclass(frozen=True)
 class Chain:
     """Elementary motions from a base to a tool, in order.
@@ -66,10 +110,12 @@ class Chain:
     Attributes:
         motions: from the base outwards.
         joints: number of joint readings a configuration has.
+        levers: what gravity takes hold of, where some motion's factor asks for it.
     """
 
     motions: tuple[Motion, ...]
     joints: int
+    levers: Levers | None = None
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:
@@ -78,7 +124,7 @@ class Chain:
 
     def __add__(self, other: Chain) -> Chain:
         """Returns the chain that goes on with another whose joints, if any, share the readings."""
-        return Chain(self.motions + other.motions, max(self.joints, other.joints))
+        return Chain(self.motions + other.motions, max(self.joints, other.joints), self.levers or other.levers)
 
     def corrected(self, corrections: Mapping[str, float]) -> Chain:
         """Returns the chain with corrections [rad or m] added to the named amounts."""
@@ -88,6 +134,7 @@ class Chain:
                 for motion in self.motions
             ),
             self.joints,
+            None if self.levers is None else self.levers.corrected(corrections),
         )
 
     def poses(
@@ -100,7 +147,7 @@ class Chain:
             corrections: added to the nominal amounts, in the order of `parameters`; none by default.
         """
         rotation, origin = _start(len(joints))
-        for motion, amount in self._amounts(joints, corrections):
+        for motion, amount, _ in self._amounts(joints, corrections):
             _advance(motion, amount, rotation, origin)
         return _homogeneous(rotation, origin)
 
@@ -108,7 +155,7 @@ class Chain:
         """Returns the frame in which each joint moves, joint by joint from the base outwards."""
         rotation, origin = _start(len(joints))
         frames = []
-        for motion, amount in self._amounts(joints, None):
+        for motion, amount, _ in self._amounts(joints, None):
             if motion.joint is not None:
                 frames.append(_homogeneous(rotation, origin))
             _advance(motion, amount, rotation, origin)
@@ -120,30 +167,89 @@ class Chain:
         """Returns the tool poses and the twist of every parameter; see `poses` for the arguments."""
         rotation, origin = _start(len(joints))
         twists = np.zeros((len(joints), len(self.parameters), 6))
+        turns = np.zeros((len(joints), self.joints, 6))
         column = 0
-        for motion, amount in self._amounts(joints, corrections):
+        for motion, amount, factor in self._amounts(joints, corrections):
             if motion.parameter is not None:
-                axis = rotation[:, :, motion.axis]
-                if motion.turns:
-                    twists[:, column, :3] = np.cross(origin, axis)
-                    twists[:, column, 3:] = axis
-                else:
-                    twists[:, column, :3] = axis
+                _set_twist(twists[:, column], motion, factor, rotation, origin)
                 column += 1
+            if motion.joint is not None and self.levers is not None:
+                _set_twist(turns[:, motion.joint], motion, None, rotation, origin)
             _advance(motion, amount, rotation, origin)
+        if self.levers is not None:
+            slopes = self.levers.slopes(joints, self._rigid_part(corrections), self._sag(corrections))
+            twists[:, self._rigid] += np.einsum("rjm,rjd->rmd", slopes, turns, optimize=True)
         return Linearisation(_homogeneous(rotation, origin), twists)
 
+    def walk(
+        self, joints: Float[np.ndarray, "rows joints"], corrections: Float[np.ndarray, "parameters"] | None = None
+    ) -> Walk:
+        """Returns the joints' axes, the links' ends and every parameter's twist; see `poses` for the arguments."""
+        rotation, origin = _start(len(joints))
+        twists = np.zeros((len(joints), len(self.parameters), 6))
+        axes, origins = [], []
+        column = 0
+        for motion, amount, factor in self._amounts(joints, corrections):
+            if motion.joint is not None:
+                axes.append(rotation[:, :, motion.axis].copy())
+                origins.append(origin.copy())
+            if motion.parameter is not None:
+                _set_twist(twists[:, column], motion, factor, rotation, origin)
+                column += 1
+            _advance(motion, amount, rotation, origin)
+        ends = [*origins[1:], origin]
+        return Walk(np.stack(axes, axis=1), np.stack(origins, axis=1), np.stack(ends, axis=1), twists)
+
+    def bends(self, joints: Float[np.ndarray, "rows joints"]) -> Float[np.ndarray, "rows moving"]:
+        """Returns how much further than its reading says each joint turns [rad], all amounts as they are.
+
+        A column each motion that is a joint's, from the base outwards: an arm's joints, those that mimic others too.
+        """
+        further: list[Any] = []
+        for motion, amount, _ in self._amounts(joints, None):
+            if motion.joint is not None:
+                further.append(np.zeros(len(joints)))
+            elif motion.factor is not None:
+                further[-1] = further[-1] + amount
+        return np.stack(further, axis=1)
+
+    @cached_property
+    def _rigid(self) -> list[int]:
+        """The columns of the levers' own parameters among this chain's."""
+        assert self.levers is not None
+        return [self.parameters.index(name) for name in self.levers.chain.parameters]
+
+    def _rigid_part(self, corrections):
+        return None if corrections is None else corrections[self._rigid]
+
+    def _sag(self, corrections) -> Float[np.ndarray, "joints links"]:
+        """Returns how far each joint turns for a metre of each link's lever [rad]."""
+        sag, column = np.zeros((self.joints, self.joints)), 0
+        for motion in self.motions:
+            if motion.factor is not None and motion.factor.link is not None:
+                correction = 0.0 if corrections is None else corrections[column]
+                sag[motion.factor.joint, motion.factor.link] = motion.value + correction
+            column += motion.parameter is not None
+        return sag
+
     def _amounts(self, joints, corrections):
+        """Yields each motion, its amount, and what a unit of its parameter adds to that."""
+        moments = None
+        if self.levers is not None:
+            moments = self.levers.moments(joints, self._rigid_part(corrections))
         column = 0
         for motion in self.motions:
-            amount = motion.value
+            amount: Any = motion.value
             if motion.parameter is not None:
                 if corrections is not None:
                     amount = amount + corrections[column]
                 column += 1
+            factor = None if motion.factor is None else motion.factor.of(joints, moments)
+            if factor is not None:
+                amount = amount * factor
             if motion.joint is not None:
                 amount = amount + motion.ratio * joints[:, motion.joint]
-            yield motion, amount
+            yield motion, amount, factor
 
 
 def fixed_motions(frame: Frame) -> tuple[Motion, ...]:
@@ -155,6 +261,20 @@ def fixed_motions(frame: Frame) -> tuple[Motion, ...]:
 
 def _start(rows: int) -> tuple[np.ndarray, np.ndarray]:
     return np.tile(np.eye(3), (rows, 1, 1)), np.zeros((rows, 3))
+
+
+def _set_twist(
+    twist: np.ndarray, motion: Motion, factor: np.ndarray | None, rotation: np.ndarray, origin: np.ndarray
+) -> None:
+    """Sets a column of twists to what a unit of a motion does to everything after it."""
+    axis = rotation[:, :, motion.axis]
+    if factor is not None:
+        axis = axis * factor[:, None]
+    if motion.turns:
+        twist[:, :3] = np.cross(origin, axis)
+        twist[:, 3:] = axis
+    else:
+        twist[:, :3] = axis
 
 
 def _advance(motion: Motion, amount: np.ndarray | float, rotation: np.ndarray, origin: np.ndarray) -> None:

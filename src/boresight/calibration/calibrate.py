@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from boresight.calibration.beyond import Beyond, beyond_in_words, go_beyond
 from boresight.calibration.campaign import Campaign
 from boresight.calibration.estimates import estimates_of
 from boresight.calibration.frames import find_frames
@@ -14,7 +17,7 @@ from boresight.calibration.outliers import find_outliers
 from boresight.calibration.problem import Problem
 from boresight.calibration.result import Residuals, Result, Unseen
 from boresight.calibration.robust import Fit, check_noise
-from boresight.calibration.solve import Progress, Solver, solve
+from boresight.calibration.solve import Progress, Solution, Solver, continued_by, solve
 from boresight.calibration.verdict import LOUD, judge
 from boresight.errors import InputError
 from boresight.inference import (
@@ -53,11 +56,13 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
     if readings is None or not len(readings):
         raise InputError(f"{campaign.name}: a calibration needs readings; give `observations:` in the campaign")
     nominal = find_frames(campaign.cell, readings, campaign.unknown, solver.seed)
+    nominal = nominal if campaign.gravity is None else nominal.under(campaign.gravity)
     freedoms = freedoms_of(campaign, nominal)
     if not freedoms:
         raise InputError(f"{campaign.name}: every parameter is fixed, so there is nothing to calibrate")
-    solution = solve(Problem(nominal, readings, freedoms), solver, on_progress)
+    solution, beyond = _beyond(campaign, solve(Problem(nominal, readings, freedoms), solver, on_progress), solver.seed)
     problem, x = solution.fit.problem, solution.fit.x
+    nominal = problem.cell
     identified = problem.fitted(x)
     sensitivity = problem.sensitivity(x)
     found = identify_directions(problem.names, sensitivity, problem.scale)
@@ -74,9 +79,17 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         name=campaign.name,
         cell=identified,
         nominal=nominal,
-        verdict=judge(held_out, solution.fit, solver.seed, uncalibrated_in_words(in_workspace) if unseen else None),
-        estimates=estimates_of(problem, identified, covariance, campaign.cell, campaign.unknown),
-        free=len(freedoms),
+        verdict=judge(
+            held_out,
+            solution.fit,
+            solver.seed,
+            uncalibrated_in_words(in_workspace) if unseen else None,
+            beyond.chosen if beyond is not None else (),
+        ),
+        estimates=estimates_of(
+            problem, identified, covariance, replace(campaign.cell, arm=nominal.arm), campaign.unknown
+        ),
+        free=len(problem.names),
         rank=found.rank,
         unseen=unseen,
         calibration=_fitted_errors(nominal, identified, readings.chosen(solution.fit.kept)),
@@ -87,6 +100,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         stated_std=float(np.median(readings.std)),
         model_std=problem.model_std,
         noise=check_noise(solution.fit),
+        beyond=beyond,
         solution=solution,
         solver=solver,
         covariance=covariance,
@@ -100,10 +114,16 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         in_workspace=in_workspace,
         set_aside=campaign.set_aside,
         warnings=campaign.warnings + _warnings(solution.fit),
-        notes=campaign.notes + left_out_in_words(left_out(campaign, nominal, freedoms)),
+        notes=campaign.notes + beyond_in_words(beyond) + left_out_in_words(left_out(campaign, nominal, freedoms)),
         inputs=campaign.inputs,
         robot_file=campaign.robot_file,
     )
+
+
+def _beyond(campaign: Campaign, solution: Solution, seed: int) -> tuple[Solution, Beyond | None]:
+    """Returns the solution with what held-out rows ask for beyond geometry, and what was tried."""
+    found, beyond = go_beyond(solution.fit, campaign.terms, campaign.freedoms is None, seed)
+    return (solution if found is solution.fit else continued_by(solution, found)), beyond
 
 
 def _fitted_errors(nominal: Cell, identified: Cell, rows: Readings) -> Residuals:

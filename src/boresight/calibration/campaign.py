@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Literal
 
 from boresight.arm.serial import SerialChain
 from boresight.sensing import Cell, Readings
+
+Term = Literal["gravity", "harmonics"]
+TERMS: tuple[Term, ...] = ("gravity", "harmonics")
+"""What bends or turns a joint beside its geometry."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,11 +22,14 @@ class Freedom:
         parameter: its name.
         within: half-width of the search about the nominal value [m, rad or 1]; None searches everywhere.
         prior_std: standard deviation of what is believed beforehand; None believes nothing.
+        learned_std: standard deviation of parameters of this kind, learned from the readings themselves, that holds
+            it in place of `prior_std`; None where nothing was learned.
     """
 
     parameter: str
     within: float | None
     prior_std: float | None
+    learned_std: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +73,11 @@ class Campaign:
         validation: rows held out; None to judge by cross-validation.
         freedoms: what to estimate; None frees what the data can see.
         fixed: parameters held at nominal, whatever `freedoms` says.
+        beyond: what may be added to the geometry where held-out readings ask for it; None for everything, unless
+            `freedoms` says what to estimate.
+        gravity: its direction in the world; None where it is the arm's own, along its base's -z unless the robot's
+            file says otherwise.
+        weightless: whether there is no gravity, as in orbit.
         unknown: the parameters of `base` and `mount` that nobody has measured.
         set_aside: rows that were not used, and why.
         warnings: what looked odd in the files, a sentence each.
@@ -79,9 +92,18 @@ class Campaign:
     validation: Readings | None = None
     freedoms: tuple[Freedom, ...] | None = None
     fixed: frozenset[str] = frozenset()
+    beyond: tuple[Term, ...] | None = None
+    gravity: tuple[float, float, float] | None = None
+    weightless: bool = False
     unknown: frozenset[str] = frozenset()
     set_aside: tuple[SetAside, ...] = ()
     warnings: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     inputs: Mapping[str, str] = field(default_factory=dict)
     robot_file: RobotFile | None = None
+
+    @property
+    def terms(self) -> tuple[Term, ...]:
+        """What may be added to the geometry."""
+        asked = self.beyond if self.beyond is not None else TERMS if self.freedoms is None else ()
+        return tuple(term for term in asked if not (term == "gravity" and self.weightless))

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
+from boresight.arm import is_further
 from boresight.calibration.problem import Problem
 from boresight.calibration.result import Estimate
 from boresight.geometry import Frame
@@ -27,6 +28,8 @@ def estimates_of(
 ) -> tuple[Estimate, ...]:
     """Returns an estimate of every parameter that is free or belongs to the arm or a target.
 
+    What could turn a joint further, but was neither added nor there before, is left out.
+
     Turns of a frame are listed as its roll, pitch and yaw, their deviations carried over from the turns about
     its own axes that were fitted.
 
@@ -38,13 +41,15 @@ def estimates_of(
         unknown: parameters the files called unknown.
     """
     std = dict(zip(problem.names, np.sqrt(np.diag(covariance)), strict=True))
-    source = dict(zip(problem.names, sources(np.sqrt(np.diag(covariance)), problem.prior_std), strict=True))
+    source = dict(zip(problem.names, sources(np.sqrt(np.diag(covariance)), problem.believed_std), strict=True))
     for name, frame in (("base", identified.base), ("mount", identified.mount)):
         std |= _rpy_std(name, frame, problem.names, covariance)
     listed = []
     for parameter in problem.cell.parameters:
         owner = parameter.name.split(".")[0]
         if owner in ("base", "mount", SENSOR) and parameter.name not in std:
+            continue
+        if is_further(parameter.name) and parameter.name not in std and not identified.values[parameter.name]:
             continue
         found, given = identified.values[parameter.name], believed.values[parameter.name]
         estimate = Estimate(

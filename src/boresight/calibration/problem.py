@@ -13,7 +13,7 @@ from boresight.inference import posterior_covariance
 from boresight.search import Box
 from boresight.sensing import Cell, Readings
 from boresight.sensing.compiled import CompiledCost, compile_program, compile_rows
-from boresight.sensing.linear import CompiledModel
+from boresight.sensing.linear import CompiledModel, ReferenceModel, model_of
 
 MISSED_M = 10.0
 """Residual [m] of a beam that looks away from its plane, and of zero slope: worse than any hit, finite."""
@@ -70,14 +70,20 @@ class Problem:
         return [self.cell.index[name] for name in self.names]
 
     @cached_property
-    def model(self) -> CompiledModel:
+    def model(self) -> CompiledModel | ReferenceModel:
         """The readings as a function of the free parameters."""
-        return CompiledModel(self.cell, self.readings, self.names)
+        return model_of(self.cell, self.readings, self.names)
+
+    @cached_property
+    def believed_std(self) -> Float[np.ndarray, "parameters"]:
+        """Standard deviations of what was believed before any reading, infinite where nothing was."""
+        return np.array([np.inf if f.prior_std is None else f.prior_std for f in self.freedoms])
 
     @cached_property
     def prior_std(self) -> Float[np.ndarray, "parameters"]:
-        """Prior standard deviations, infinite where nothing is believed."""
-        return np.array([np.inf if f.prior_std is None else f.prior_std for f in self.freedoms])
+        """Standard deviations that hold the parameters: learned or believed; infinite where neither."""
+        learned = [np.nan if f.learned_std is None else f.learned_std for f in self.freedoms]
+        return np.where(np.isnan(learned), self.believed_std, learned)
 
     @cached_property
     def half_width(self) -> Float[np.ndarray, "parameters"]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from boresight.calibration.beyond import Beyond
 from boresight.calibration.campaign import RobotFile, SetAside
 from boresight.calibration.robust import NoiseCheck
 from boresight.calibration.solve import Solution, Solver
@@ -143,6 +144,7 @@ class Result:
         stated_std: median stated standard deviation of a row's value [m].
         model_std: standard deviation [m] of what the model leaves unexplained.
         noise: the residuals against the stated noise.
+        beyond: what was tried beyond geometry; None where there was no need, or it was not wanted.
         solution: how the search went.
         solver: how it was set.
         covariance: (free, free) posterior covariance of the corrections.
@@ -172,6 +174,7 @@ class Result:
     stated_std: float
     model_std: float
     noise: NoiseCheck
+    beyond: Beyond | None
     solution: Solution
     solver: Solver
     covariance: Float[np.ndarray, "free free"]

@@ -129,6 +129,16 @@ def fit(problem: Problem, start: Float[np.ndarray, "parameters"], *, move: bool 
     return replace(best, search=replace(best.search, seconds=seconds, evaluations=evaluations))
 
 
+def continued(problem: Problem, start: Float[np.ndarray, "parameters"]) -> Fit:
+    """Returns the robust optimum near a start from which rows are weighed and the model's own error is known.
+
+    Args:
+        problem: what to fit, its weights and model_std those of a fit of nearly the same model.
+        start: that fit's end.
+    """
+    return _settled(problem, refine(problem, start), move=True, soft_rounds=0, rounds=HARD_ROUNDS)
+
+
 def _explained(found: Fit) -> bool:
     """Returns whether a fit leaves nothing to explain, and keeps so many rows that it is no coincidence."""
     values, free = found.problem.readings.values, len(found.x)

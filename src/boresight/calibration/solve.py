@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -109,6 +109,12 @@ def solve(problem: Problem, solver: Solver, on_progress: Progress | None = None)
     if best is direct:
         stages.append(nominal)
     return Solution(best, tuple(stages), evolved.history, nominal, _same(best, direct))
+
+
+def continued_by(solution: Solution, further: Fit) -> Solution:
+    """Returns the solution that ends with a fit of a larger model; earlier stages keep the costs of the smaller."""
+    stage = _stage("least squares with what lies beyond geometry", further, further)
+    return replace(solution, fit=further, stages=(*solution.stages, stage))
 
 
 def _compared(found: Fit, both: tuple[Fit, Fit]) -> float:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from boresight.calibration.campaign import Term
 from boresight.calibration.holdout import HeldOut
 from boresight.calibration.problem import Problem
 from boresight.calibration.result import Verdict
@@ -28,6 +29,9 @@ UNLIKELY = 4.0
 
 LOUD = 2.0
 """Residuals this many times the stated noise are worth saying."""
+
+_SUSPECTS = {"gears": "harmonics", "gravity": "gravity", "backlash": "", "a wrong noise_std": ""}
+"""What makes an arm move in ways that geometry does not have, and the term that would model it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +65,7 @@ def improvement(held_out: HeldOut, seed: int) -> Improvement:
     return Improvement(_ratio(before, after), float(low), float(high))
 
 
-def judge(held_out: HeldOut, fit: Fit, seed: int, uncalibrated: str | None) -> Verdict:
+def judge(held_out: HeldOut, fit: Fit, seed: int, uncalibrated: str | None, beyond: tuple[Term, ...] = ()) -> Verdict:
     """Returns the verdict and its reasons.
 
     Args:
@@ -69,6 +73,7 @@ def judge(held_out: HeldOut, fit: Fit, seed: int, uncalibrated: str | None) -> V
         fit: the final fit.
         seed: of the bootstrap.
         uncalibrated: what of the tool's pose the readings cannot see, in words, if anything.
+        beyond: what the model has beyond geometry.
     """
     problem = fit.problem
     change, size = improvement(held_out, seed), held_out.residuals
@@ -96,19 +101,20 @@ def judge(held_out: HeldOut, fit: Fit, seed: int, uncalibrated: str | None) -> V
         reasons.append(f"{listed(stuck)} {verb}: widen `within` for them, or look for a wrong nominal value or unit.")
     if uncalibrated:
         reasons.append(uncalibrated)
-    said = _noise_in_words(check_noise(fit), problem.model_std)
+    said = _noise_in_words(check_noise(fit), problem.model_std, beyond)
     if said:
         reasons.append(said)
     return Verdict(improved and not stuck, tuple(reasons))
 
 
-def _noise_in_words(check: NoiseCheck, model_std: float) -> str | None:
+def _noise_in_words(check: NoiseCheck, model_std: float, beyond: tuple[Term, ...]) -> str | None:
     """Returns what a person should know where residuals disagree with the stated noise."""
     test = f"chi-square {check.chi_square:.3g} where {check.freedom:.3g} is expected"
     if model_std > 0.0 and check.ratio > LOUD:
+        suspects = [cause for cause, term in _SUSPECTS.items() if term not in beyond]
         return (
             f"The arm moves in ways this model does not have: residuals are {check.ratio:.0f}x the stated noise "
-            f"({test}). Intervals are widened to match; gears, gravity or a wrong noise_std may explain it."
+            f"({test}). Intervals are widened to match; {', '.join(suspects[:-1])} or {suspects[-1]} may explain it."
         )
     if model_std > 0.0:
         return (

@@ -26,6 +26,9 @@ SPREADS = (0.05, 0.2, 0.1, 0.5, 0.3, 1.0)
 search that begins at a singular configuration may not leave it. Of stuck poses of random PUMA-like arms, half
 are reached so; the others really are out of reach."""
 
+BENDS = 5
+"""Rounds in which readings are found from turns; each leaves a thousandth of what the last one left."""
+
 FAR_STARTS = 24
 """Starts anywhere within the limits, for a pose that came without joint readings."""
 
@@ -95,7 +98,28 @@ def _reach(
     lever: float,
     spreads: tuple[float, ...],
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Returns joints, what is missing and the weakest motion; rows that do not get there begin again elsewhere."""
+    """Returns joints, what is missing and the weakest motion, of an arm that may bend.
+
+    Joints are found as they turn, then as they read: a bend is small and hardly depends on itself.
+    """
+    if not arm.is_bent:
+        return _reach_rigid(arm, poses, starts, lever, spreads)
+    low, high = arm.limits.T
+    turned, _, weakest = _reach_rigid(arm, poses, starts + arm.bends(starts), lever, spreads)
+    read = turned
+    for _ in range(BENDS):
+        read = np.clip(turned - arm.bends(read), low, high)
+    return read, _apart(arm.forward_kinematics(read), poses, lever == 0.0), weakest
+
+
+def _reach_rigid(
+    arm: Arm,
+    poses: Float[np.ndarray, "rows 4 4"],
+    starts: Float[np.ndarray, "rows joints"],
+    lever: float,
+    spreads: tuple[float, ...],
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Returns the same where nothing bends; rows that do not get there begin again elsewhere."""
     limb = limb_of(arm)
     low, high = _span(arm)
     slides = np.array([joint.type == "prismatic" for joint in arm.driven])
@@ -126,7 +150,7 @@ def _run(limb: Limb, poses, starts, lever: float) -> tuple[np.ndarray, np.ndarra
 
 def limb_of(arm: Arm) -> Limb:
     """Returns an arm as the compiled loop takes it."""
-    motions = [motion for motion in arm.chain.motions if motion.value != 0.0 or motion.joint is not None]
+    motions = [m for m in arm.chain.motions if m.factor is None and (m.value != 0.0 or m.joint is not None)]
     value = np.array([motion.value for motion in motions])
     low, high = arm.limits.T
     return Limb(

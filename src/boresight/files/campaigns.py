@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import cast
 
-from boresight.arm import Arm
+from boresight.arm import HARMONICS, SAG, Arm
 from boresight.calibration.campaign import Campaign, Freedom, RobotFile
 from boresight.errors import InputError, did_you_mean
 from boresight.files.composing import KeyPath
@@ -66,6 +66,9 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
         validation=data["validation"].readings if "validation" in data else None,
         freedoms=choice.freedoms,
         fixed=choice.fixed | robot.held,
+        beyond=None if entry.beyond is None else tuple(entry.beyond),
+        gravity=entry.gravity if isinstance(entry.gravity, tuple) else None,
+        weightless=entry.gravity == "off",
         unknown=_unknown("base", entry.base) | _unknown("mount", entry.mount),
         set_aside=tuple(row for part in data.values() for row in part.set_aside),
         warnings=(*(warning for part in data.values() for warning in part.warnings), *_same_data(entry, data)),
@@ -99,7 +102,17 @@ def cell_of(document: Document, entry: CampaignEntry, robot: RobotOf, problems: 
         problems.add(f"{document.at(('targets', name))}a joint is called {name} too; expected another name")
     problems.raise_if_any()
     assert arm is not None
-    return Cell(arm, sensor, _frame(entry.base, units), _frame(entry.mount, units), targets)
+    return _as_asked(Cell(arm, sensor, _frame(entry.base, units), _frame(entry.mount, units), targets), entry)
+
+
+def _as_asked(cell: Cell, entry: CampaignEntry) -> Cell:
+    """Returns the cell under the campaign's gravity, its arm with whatever the campaign names."""
+    named = {p.rpartition(".")[2][:3] for p in (*entry.fixed, *(p for e in entry.estimate or () for p in e.parameters))}
+    arm = cell.arm.weightless() if entry.gravity == "off" else cell.arm
+    arm = arm.with_harmonics() if named & {wave[:3] for wave in HARMONICS} else arm
+    arm = arm.with_sag() if SAG in named and entry.gravity != "off" else arm
+    cell = replace(cell, arm=arm)
+    return cell.under(entry.gravity) if isinstance(entry.gravity, tuple) else cell
 
 
 class RobotOf:

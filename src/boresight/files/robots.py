@@ -6,7 +6,7 @@ import json
 import math
 from pathlib import Path
 
-from boresight.arm import LINK_NUMBERS, Arm, Joint
+from boresight.arm import DOWN, HARMONICS, LINK_NUMBERS, Arm, Joint
 from boresight.errors import InputError
 from boresight.files.documents import Document, read_document
 from boresight.files.explaining import validated
@@ -48,10 +48,12 @@ def arm_of(document: Document) -> Arm:
     problems.extend(_repeated_names(document))
     with problems.gathered():
         entry = validated(document, RobotEntry)
+        problems.extend(_sag_out_of_place(document, entry))
     problems.raise_if_any()
     units = entry.units.value
     joints = tuple(_joint(joint, units, entry) for joint in entry.joints)
-    return Arm(entry.name, joints, entry.convention, _frame(entry.root, units), _frame(entry.tip, units))
+    root, tip = (_frame(place, units) for place in (entry.root, entry.tip))
+    return Arm(entry.name, joints, entry.convention, root, tip, entry.gravity or DOWN)
 
 
 def dump_robot(arm: Arm, header_comment: str = "") -> str:
@@ -68,6 +70,7 @@ def dump_robot(arm: Arm, header_comment: str = "") -> str:
         "units: {length: m, angle: rad}",
         f"convention: {arm.convention}",
         *_place("root", arm.root),
+        *([f"gravity: {list(map(float, arm.gravity))}"] if any(joint.sag for joint in arm.joints) else []),
         "joints:",
     ]
     for joint in arm.joints:
@@ -75,7 +78,8 @@ def dump_robot(arm: Arm, header_comment: str = "") -> str:
         low, high = map(float, joint.limits)
         limits = "none" if math.isinf(low) else f"[{low!r}, {high!r}]"
         follows = f", follows: {_quoted(joint.follows)}, ratio: {float(joint.ratio)!r}" if joint.follows else ""
-        lines.append(f"  - {{name: {_quoted(joint.name)}, type: {joint.type}, {links}, limits: {limits}{follows}}}")
+        further = follows + _further(joint)
+        lines.append(f"  - {{name: {_quoted(joint.name)}, type: {joint.type}, {links}, limits: {limits}{further}}}")
     return "\n".join([*lines, *_place("tip", arm.tip)]) + "\n"
 
 
@@ -89,6 +93,13 @@ def _frame(entry: PlaceEntry, units: Units) -> Frame:
     x, y, z = (value * units.metres for value in entry.xyz)
     roll, pitch, yaw = (value * units.radians for value in entry.rpy)
     return Frame((x, y, z), (roll, pitch, yaw))
+
+
+def _further(joint: Joint) -> str:
+    """Returns what turns a joint beside its reading, as further keys; what is 0 turns nothing."""
+    waves = "".join(f", {wave}: {float(h)!r}" for wave, h in zip(HARMONICS, joint.harmonics, strict=False) if h)
+    sag = ", ".join(f"{link}: {float(turn)!r}" for link, turn in joint.sag if turn)
+    return waves + (f", sag: {{{sag}}}" if sag else "")
 
 
 def _quoted(name: str) -> str:
@@ -107,7 +118,29 @@ def _joint(entry: JointEntry, units: Units, robot: RobotEntry) -> Joint:
     if entry.follows is not None:
         leads = next(joint.type for joint in robot.joints if joint.name == entry.follows)
         ratio *= scale / (units.radians if leads == "revolute" else units.metres)
-    return Joint(entry.name, entry.type, limits=(low, high), follows=entry.follows, ratio=ratio, **numbers)
+    harmonics = tuple(height * units.radians for height in entry.harmonics)
+    sag = tuple((link, turn * units.radians) for link, turn in entry.sag)
+    return Joint(
+        entry.name,
+        entry.type,
+        limits=(low, high),
+        follows=entry.follows,
+        ratio=ratio,
+        harmonics=harmonics,
+        sag=sag,
+        **numbers,
+    )
+
+
+def _sag_out_of_place(document: Document, entry: RobotEntry) -> list[str]:
+    """Joints said to sag under links that do not come after them, or do not exist."""
+    return [
+        f"{document.at(('joints', place, 'sag'))}{shown(joint.name)} sags under link {link}; expected its own link, "
+        f"{place + 1}, or one after it, to {len(entry.joints)}"
+        for place, joint in enumerate(entry.joints)
+        for link, _ in joint.sag
+        if not place < link <= len(entry.joints)
+    ]
 
 
 def _repeated_names(document: Document) -> list[str]:

@@ -13,6 +13,7 @@ from pydantic import AfterValidator, AllowInfNan, BaseModel, BeforeValidator, Co
 from pydantic_core import PydanticCustomError
 
 from boresight.arm.conventions import Convention, JointType
+from boresight.calibration.campaign import TERMS, Term
 from boresight.units import AngleUnit, LengthUnit, Units
 
 RESERVED = ("base", "mount", "sensor")
@@ -64,6 +65,41 @@ def _limits(value: Any) -> Any:
     return tuple(map(float, value))
 
 
+def _direction(value: Any) -> Any:
+    if not _is_numbers(value, 3) or not any(value):
+        raise expected("a list of 3 finite numbers that are not all zero, a direction")
+    return _unit(value)
+
+
+def _gravity(value: Any) -> Any:
+    if value in ("level", "off"):
+        return value
+    if not _is_numbers(value, 3) or not any(value):
+        raise expected("level, off, or gravity's direction in the world: [0, 0, -1]")
+    return _unit(value)
+
+
+def _unit(value: list[float]) -> tuple[float, ...]:
+    size = math.hypot(*value)
+    return tuple(float(part) / size for part in value)
+
+
+def _sag(value: Any) -> Any:
+    if not isinstance(value, dict) or not all(key.isascii() and key.isdigit() for key in value):
+        raise expected("turns by number of the link whose weight they come from: {3: 0.0002}")
+    if not all(map(_is_number, value.values())):
+        raise expected("a finite number for each link")
+    return tuple((int(key), float(turn)) for key, turn in value.items())
+
+
+def _beyond(value: Any) -> Any:
+    if value == "off":
+        return []
+    if not isinstance(value, list) or not all(term in TERMS for term in value):
+        raise expected(f"off, or a list of what may be added: [{', '.join(TERMS)}]")
+    return value
+
+
 def _not_minute(value: float) -> float:
     if value < SMALLEST:
         raise expected(f"a number of at least {SMALLEST:g}")
@@ -89,6 +125,9 @@ Positive = Annotated[Number, Field(gt=0), AfterValidator(_not_minute)]
 Name = Annotated[str, AfterValidator(_checked_name)]
 Triple = Annotated[tuple[float, float, float], BeforeValidator(_triple)]
 KnownTriple = Annotated[tuple[float, float, float] | None, BeforeValidator(_unknown_or_triple)]
+Direction = Annotated[tuple[float, float, float] | None, BeforeValidator(_direction)]
+Gravity = Annotated[tuple[float, float, float] | Literal["level", "off"], BeforeValidator(_gravity)]
+Sag = Annotated[tuple[tuple[int, float], ...], BeforeValidator(_sag)]
 Limits = Annotated[tuple[float, float] | None, BeforeValidator(_limits)]
 
 
@@ -120,9 +159,28 @@ class JointEntry(Entry):
     a: Number = 0.0
     alpha: Number = 0.0
     beta: Number = 0.0
+    cos1: Number | None = None
+    sin1: Number | None = None
+    cos2: Number | None = None
+    sin2: Number | None = None
+    sag: Sag = ()
     limits: Limits = None
     follows: Name | None = None
     ratio: Number = 1.0
+
+    @model_validator(mode="after")
+    def _only_revolute_joints_bend(self) -> JointEntry:
+        if self.type == "prismatic" and (self.sag or self.harmonics):
+            raise expected("no harmonics or sag for a prismatic joint, which does not turn")
+        if self.follows is not None and (self.sag or self.harmonics):
+            raise expected("no harmonics or sag for a joint that follows another")
+        return self
+
+    @property
+    def harmonics(self) -> tuple[float, ...]:
+        """Heights of the four waves; none where none is named."""
+        named = (self.cos1, self.sin1, self.cos2, self.sin2)
+        return () if all(height is None for height in named) else tuple(height or 0.0 for height in named)
 
     @model_validator(mode="after")
     def _prismatic_joints_have_limits(self) -> JointEntry:
@@ -148,12 +206,15 @@ class RobotEntry(Entry):
     units: UnitsEntry = UnitsEntry()
     convention: Convention = "standard-dh"
     root: PlaceEntry = PlaceEntry()
+    gravity: Direction = None
     joints: Annotated[list[JointEntry], Field(min_length=1)] = Field(description="a list of one joint or more")
     tip: PlaceEntry = PlaceEntry()
 
     @model_validator(mode="after")
     def _joints_follow_joints_that_are_read(self) -> RobotEntry:
         read = [joint.name for joint in self.joints if joint.follows is None]
+        if len(read) < len(self.joints) and any(joint.sag for joint in self.joints):
+            raise expected("no sag in an arm whose joints follow others: other links hold them up")
         for joint in self.joints:
             if joint.follows is not None and joint.follows not in read:
                 raise expected(
@@ -242,3 +303,5 @@ class CampaignEntry(Entry):
     validation: str | None = None
     estimate: list[FreedomEntry] | None = None
     fixed: list[str] = []
+    gravity: Gravity = "level"
+    beyond: Annotated[list[Term] | None, BeforeValidator(_beyond)] = None

@@ -17,6 +17,9 @@ from boresight.inference.pose import spread_configurations as spread_configurati
 from boresight.inference.pose import uncalibrated_in_words as uncalibrated_in_words
 from boresight.inference.posterior import posterior_covariance as posterior_covariance
 from boresight.inference.posterior import sources as sources
+from boresight.inference.shrinkage import Shrunk as Shrunk
+from boresight.inference.shrinkage import Squares as Squares
+from boresight.inference.shrinkage import shrink as shrink
 from boresight.inference.words import UnseenDirection as UnseenDirection
 from boresight.inference.words import listed as listed
 from boresight.inference.words import unseen_in_words as unseen_in_words

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from boresight.arm.serial import corrected_chain
+from boresight.calibration.beyond import Beyond
 from boresight.calibration.result import ErrorSummary, Residuals, Result
 from boresight.calibration.solve import Stage
 from boresight.geometry import Frame
@@ -57,6 +58,7 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
             "chi_square": _number(result.noise.chi_square),
             "degrees_of_freedom": result.noise.freedom,
         },
+        "beyond_geometry": _beyond(result.beyond),
         "frames": {"base": _frame(result.cell.base), "mount": _frame(result.cell.mount)},
         "targets": {
             name: {"normal": list(plane.normal), "offset": plane.offset} for name, plane in result.cell.targets.items()
@@ -87,6 +89,21 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
 def result_json(result: Result, version: str) -> str:
     """Returns the text of `result.json`."""
     return json.dumps(result_document(result, version), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _beyond(beyond: Beyond | None) -> dict[str, Any] | None:
+    """Returns what was tried beyond geometry on rows left out of the fits; None where nothing was."""
+    if beyond is None:
+        return None
+    return {
+        "unit": "m",
+        "used": list(beyond.chosen),
+        "trials": [
+            {"terms": list(trial.terms), "rms": trial.rms_m, "advantage_in_standard_errors": trial.advantage}
+            for trial in beyond.trials
+        ],
+        "learned_std": dict(beyond.learned),
+    }
 
 
 def _residuals(residuals: Residuals) -> dict[str, Any]:

@@ -142,6 +142,11 @@ class Cell:
             targets={name: _moved_plane(name, plane, corrections) for name, plane in self.targets.items()},
         )
 
+    def under(self, gravity: tuple[float, float, float]) -> Cell:
+        """Returns the cell whose arm feels gravity in a direction of the world, a unit vector."""
+        x, y, z = (float(part) for part in self.base.matrix[:3, :3].T @ np.array(gravity))
+        return replace(self, arm=replace(self.arm, gravity=(x, y, z)))
+
     def _adjusted_sensor(self, corrections: Float[np.ndarray, "parameters"] | None) -> Sensor:
         numbers = self.sensor.numbers
         if corrections is None or not numbers:

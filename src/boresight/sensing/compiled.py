@@ -1,4 +1,8 @@
-"""A cell and its readings written out as the flat arrays of the compiled loops."""
+"""A cell and its readings written out as the flat arrays of the compiled loops.
+
+What turns a joint beside its reading (`boresight.arm.bending`) enters as it nominally is, added to the readings: it
+is small, linear, and left to least squares.
+"""
 
 from __future__ import annotations
 
@@ -59,7 +63,7 @@ def compile_rows(cell: Cell, readings: Readings, weight: Float[np.ndarray, "rows
     angle = np.array([motion.turns for motion in cell.chain.motions if motion.joint is not None])
     order = [motion.joint for motion in cell.chain.motions if motion.joint is not None]
     ratio = [motion.ratio for motion in cell.chain.motions if motion.joint is not None]
-    moved = readings.joints[:, order] * ratio
+    moved = readings.joints[:, order] * ratio + cell.chain.bends(readings.joints)
     own = np.broadcast_to(readings.target[:, None], (count, channels))
     plane = np.array([channel if readout.plane else 0 for channel, readout in enumerate(cell.sensor.readouts)])
     is_own = np.array([readout.plane is None for readout in cell.sensor.readouts])
@@ -79,6 +83,8 @@ def _segments(chain: Chain) -> tuple[list[list[Motion]], list[bool]]:
     segments: list[list[Motion]] = [[]]
     prismatic = []
     for motion in chain.motions:
+        if motion.factor is not None:
+            continue
         if motion.joint is not None:
             assert motion.axis == 2, "the compiled loop's joints move about or along z"
             segments.append([])

@@ -77,6 +77,37 @@ class CompiledModel:
         )
 
 
+class ReferenceModel:
+    """The same by NumPy, for cells that the compiled loops do not linearise: arms that bend."""
+
+    def __init__(self, cell: Cell, readings: Readings, free: Sequence[str]) -> None:
+        """Args: see `CompiledModel`."""
+        self._cell, self._readings = cell, readings
+        self._columns = [cell.index[name] for name in free]
+
+    def predict(self, x: Float[np.ndarray, "free"]) -> Float[np.ndarray, "rows channels"]:
+        """Returns what the sensor would read [m]; NaN where a beam misses."""
+        return self._cell.predict(self._readings.joints, self._readings.target, self._corrections(x))
+
+    def linearise(
+        self, x: Float[np.ndarray, "free"]
+    ) -> tuple[Float[np.ndarray, "rows channels"], Float[np.ndarray, "rows channels free"]]:
+        """Returns the same and its derivatives by the free parameters; zeros where a beam misses."""
+        values, slopes = self._cell.linearise(self._readings.joints, self._readings.target, self._corrections(x))
+        return values, np.nan_to_num(slopes[:, :, self._columns], nan=0.0)
+
+    def _corrections(self, x: Float[np.ndarray, "free"]) -> Float[np.ndarray, "all"]:
+        full = np.zeros(len(self._cell.parameters))
+        full[self._columns] = x
+        return full
+
+
+def model_of(cell: Cell, readings: Readings, free: Sequence[str]) -> CompiledModel | ReferenceModel:
+    """Returns the fastest model of a cell's readings."""
+    bends = any(motion.factor is not None for motion in cell.chain.motions)
+    return ReferenceModel(cell, readings, free) if bends else CompiledModel(cell, readings, free)
+
+
 def _plane_numbers(plane) -> tuple[str, str, str]:
     first, second = ("xyz"[axis] for axis in plane.free_components)
     return f"normal_{first}", f"normal_{second}", "offset"
