@@ -5,7 +5,7 @@ import importlib
 import json
 import os
 
-NAMES = ("intervals", "robustness", "evolution", "case1")
+NAMES = ("intervals", "robustness", "evolution", "strategies", "case1")
 
 
 def main() -> None:
