@@ -54,7 +54,7 @@ PARTS = {
     "downhill, CR = 0.9": DifferentialEvolution(STRATEGIES[NEW], crossover=0.9),
     "downhill, CR = 1": DifferentialEvolution(STRATEGIES[NEW], crossover=1.0),
 }
-"""What the new strategy's parts are worth: each left out in turn. These and what is left run on a tenth of the seeds."""
+"""What the new strategy's parts are worth: each left out in turn. These and the rest run on a tenth of the seeds."""
 
 
 def plain(kind: Setup, seed: int) -> tuple[Problem, np.ndarray]:

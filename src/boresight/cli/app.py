@@ -48,7 +48,7 @@ def calibrate(
         output: folder for the result; NAME-result in the present folder by default.
         solver: how to search.
         strategy: how evolution makes mutants.
-        population: members of the evolution (Np); the strategy's own by default, 150 as in the paper, 130 for downhill.
+        population: members of the evolution (Np); the strategy's own by default, 150 as in the paper, 120 for downhill.
         generations: generations of the evolution (G).
         seed: of all random numbers; the same seed gives the same answer.
         json: print result.json instead of a summary.
