@@ -9,7 +9,8 @@ parameters that is a fifth of a standard deviation for all parameters together.
 Strategies run once with the paper's evaluations, and their history is read at half of them as well; populations
 other than 150 are cut to whole generations within the budget. Rivals, whose schedules depend on the budget, run once
 for each: L-SHADE (Tanabe & Fukunaga 2014) and jSO (Brest, Maučec & Bošković 2017) of minionpy (C++), with its own
-settings, given our compiled cost a population at a time. Times are of the whole search, other processes running.
+settings, given our compiled cost a population at a time. Times are medians, other processes running: compare them
+only among searches that ran on as many seeds.
 """
 
 from __future__ import annotations
