@@ -5,7 +5,16 @@ import importlib
 import json
 import os
 
-NAMES = ("intervals", "robustness", "evolution", "case1", "studies", "compensation", "beyond")
+NAMES = (
+    "intervals",
+    "robustness",
+    "evolution",
+    "strategies",
+    "case1",
+    "studies",
+    "compensation",
+    "beyond",
+)
 
 
 def main() -> None:

@@ -10,7 +10,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 RESULTS = Path(__file__).with_name("results.md")
-PACKAGES = ("boresight", "numpy", "scipy", "numba", "pygmo")
+PACKAGES = ("boresight", "numpy", "scipy", "numba", "pygmo", "minionpy")
 
 
 @dataclass(frozen=True)

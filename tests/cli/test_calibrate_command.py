@@ -131,7 +131,9 @@ def test_the_same_seed_gives_the_same_answer(boresight, one_plane):
     assert first["parameters"] != other["parameters"]
 
 
-@pytest.mark.parametrize("strategy", ["trade-off", "rand-to-best/1", "current-to-best/1", "best/1", "rand/1"])
+@pytest.mark.parametrize(
+    "strategy", ["trade-off", "rand-to-best/1", "current-to-best/1", "best/1", "rand/1", "downhill"]
+)
 def test_every_strategy_runs(boresight, one_plane, strategy):
     said = boresight("calibrate", one_plane.campaign, "--json", "--strategy", strategy, "--generations", "30")
     assert said.code == 0

@@ -1,5 +1,7 @@
 """Differential evolution: values, strategies, bounds and replay."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -114,6 +116,59 @@ def test_the_definitions_of_the_paper():
             assert any(np.all(match | outside) for match, outside in zip(matches, redrawn, strict=True)), name
             inside += any(match.all() for match in matches)
         assert inside, name
+
+
+def test_a_downhill_difference_points_from_the_dearer_to_the_cheaper_of_two_members():
+    """CR = 1, no leader but the best, F fixed: every trial is x + K (best - x) + F (b - c) with b below c."""
+    strategy = replace(STRATEGIES["downhill"], elite=0.0, spread=0.0)
+    settings, wide = DifferentialEvolution(strategy, 6, crossover=1.0), Box(np.full(3, -1e6), np.full(3, 1e6))
+    population = seed_population(settings, wide, 1)
+    population = tell(population, population.members, np.arange(6.0))
+    members, found = population.members, 0
+    for i, trial in enumerate(ask(settings, wide, population)):
+        pulled = members[i] + 0.3 * (members[0] - members[i])
+        options = [
+            pulled + settings.scale * (members[b] - members[c])
+            for b in range(6)
+            for c in range(b + 1, 6)
+            if i not in (b, c)
+        ]
+        matches = [np.isclose(option, trial, rtol=1e-9, atol=1e-3) for option in options]
+        redrawn = [np.abs(option) > 1e6 for option in options]
+        assert any(np.all(match | outside) for match, outside in zip(matches, redrawn, strict=True))
+        found += any(match.all() for match in matches)
+    assert found
+
+
+def test_mutants_are_drawn_to_every_leader_and_to_nobody_else():
+    """K = 1, F = 0: a mutant is its leader."""
+    strategy = replace(STRATEGIES["downhill"], pull=1.0, elite=0.1, spread=0.0)
+    settings = DifferentialEvolution(strategy, 50, scale=0.0, crossover=1.0)
+    population = evaluated(settings)
+    leaders = population.members[np.argsort(population.costs)[:5]]
+    drawn_to = np.array([[np.allclose(trial, one) for one in leaders] for trial in ask(settings, BOX, population)])
+    assert np.all(drawn_to.sum(axis=1) == 1)
+    assert np.all(drawn_to.any(axis=0))
+
+
+def test_f_varies_from_mutant_to_mutant_within_the_spread():
+    strategy = replace(STRATEGIES["rand/1"], from_current=True, spread=0.2)
+    settings = DifferentialEvolution(strategy, 400, scale=0.5, crossover=1.0)
+    box = Box(np.array([-1e9]), np.array([1e9]))
+    population = seed_population(settings, box, 1)
+    middle = np.where(np.arange(400) % 2, 1.0, -1.0)[:, None]
+    population = tell(replace(population, members=middle + 0.0), middle, np.zeros(400))
+    steps = np.abs(ask(settings, box, population) - population.members)
+    scales = steps[steps > 0.0] / 2.0  # members are 0 or 2 apart
+    assert 0.3 <= scales.min() < 0.32
+    assert 0.68 < scales.max() <= 0.7
+
+
+def test_what_a_strategy_was_tuned_with_is_used_unless_told_otherwise():
+    tuned, paper = DifferentialEvolution(STRATEGIES["downhill"]), DifferentialEvolution()
+    assert (tuned.population, tuned.scale, tuned.crossover) == (120, 0.565, 0.99)
+    assert (paper.population, paper.scale, paper.crossover) == (150, 0.6, 0.9)
+    assert DifferentialEvolution(STRATEGIES["downhill"], 40, crossover=0.0).crossover == 0.0
 
 
 def test_crossover_always_takes_one_component_of_the_mutant():

@@ -18,7 +18,7 @@ from boresight.cli.consoles import PipedConsole
 from boresight.errors import BoresightError
 
 SolverChoice = Literal["evolution+least-squares", "evolution", "least-squares"]
-StrategyChoice = Literal["trade-off", "rand-to-best/1", "current-to-best/1", "best/1", "rand/1"]
+StrategyChoice = Literal["trade-off", "rand-to-best/1", "current-to-best/1", "best/1", "rand/1", "downhill"]
 
 FormatChoice = Literal["urdf", "dh", "ur-kinematics", "ur-calibration-conf", "pal", "json"]
 ConventionChoice = Literal["standard-dh", "modified-dh"]
@@ -39,7 +39,7 @@ def calibrate(
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     solver: SolverChoice = "evolution+least-squares",
     strategy: StrategyChoice = "trade-off",
-    population: int = 150,
+    population: int | None = None,
     generations: int = 500,
     seed: int = 0,
     json: Annotated[bool, Parameter(negative="")] = False,
@@ -51,7 +51,7 @@ def calibrate(
         output: folder for the result; NAME-result in the present folder by default.
         solver: how to search.
         strategy: how evolution makes mutants.
-        population: members of the evolution (Np).
+        population: members of the evolution (Np); the strategy's own by default, 150 as in the paper, 120 for downhill.
         generations: generations of the evolution (G).
         seed: of all random numbers; the same seed gives the same answer.
         json: print result.json instead of a summary.

@@ -30,7 +30,7 @@ def run_calibrate(
     *,
     solver: str,
     strategy: str,
-    population: int,
+    population: int | None,
     generations: int,
     seed: int,
     as_json: bool,
@@ -69,9 +69,9 @@ def run_calibrate(
     return 0 if result.verdict.accepted else REJECTED
 
 
-def _solver(solver: str, strategy: str, population: int, generations: int, seed: int) -> Solver:
+def _solver(solver: str, strategy: str, population: int | None, generations: int, seed: int) -> Solver:
     problems = []
-    if not 5 <= population <= MOST_MEMBERS:
+    if population is not None and not 5 <= population <= MOST_MEMBERS:
         problems.append(f"--population: expected 5 to {MOST_MEMBERS} members, got {population}; the paper uses 150")
     if not 1 <= generations <= MOST_GENERATIONS:
         problems.append(f"--generations: expected 1 to {MOST_GENERATIONS}, got {generations}; the paper uses 500")
@@ -79,5 +79,5 @@ def _solver(solver: str, strategy: str, population: int, generations: int, seed:
         problems.append(f"--seed: expected a whole number from 0 to {LARGEST_SEED}, got {seed}")
     if problems:
         raise InputError(problems)
-    evolution = DifferentialEvolution(STRATEGIES[strategy], population)
+    evolution = DifferentialEvolution(STRATEGIES[strategy], population or STRATEGIES[strategy].population)
     return Solver(solver, evolution, Stops(generations), seed)  # type: ignore[arg-type]

@@ -22,7 +22,10 @@ class Breeding(NamedTuple):
         from_current: whether mutants start from the member itself rather than from a random one.
         pull: K, how far they are drawn towards the best (0: rand/1, 1: best/1).
         scale: F, the weight of the difference of two random members.
+        spread: how far F varies from member to member, either way.
         crossover: CR, the probability of taking a component from the mutant.
+        downhill: whether the difference points from the dearer to the cheaper of its two members.
+        elite: how many of the best members stand for the best, each mutant drawn to one of them.
         lower: (parameters,) lower bounds.
         upper: (parameters,) upper bounds.
     """
@@ -30,9 +33,16 @@ class Breeding(NamedTuple):
     from_current: bool
     pull: float
     scale: float
+    spread: float
     crossover: float
+    downhill: bool
+    elite: int
     lower: np.ndarray
     upper: np.ndarray
+
+
+_OWN = np.uint64(1 << 32)
+"""Number of the draw that gives a mutant its leader and its F: beyond those of any parameter."""
 
 
 @compiled
@@ -62,7 +72,22 @@ def partners(key, me, total, parameters):
 
 
 @compiled
-def breed(run, generation, breeding, members, best, trials, lanes):
+def lead(costs, leaders):
+    """Writes the rows of the cheapest members, cheapest first."""
+    filled = 0
+    for i in range(costs.shape[0]):
+        if filled == leaders.shape[0] and not costs[i] < costs[leaders[filled - 1]]:
+            continue
+        filled = min(filled + 1, leaders.shape[0])
+        place = filled - 1
+        while place > 0 and costs[i] < costs[leaders[place - 1]]:
+            leaders[place] = leaders[place - 1]
+            place -= 1
+        leaders[place] = i
+
+
+@compiled
+def breed(run, generation, breeding, members, costs, leaders, trials, lanes):
     """Writes the trial members of a generation (paper, eq. 14 to 17), and transposed for the sweep.
 
     A component that leaves the box is drawn again between the member's own value and the bound it crossed.
@@ -74,18 +99,24 @@ def breed(run, generation, breeding, members, best, trials, lanes):
         generation: number of the generation.
         breeding: the strategy and its box.
         members: (members, parameters) the population.
-        best: row of its best member.
+        costs: (members,) its costs.
+        leaders: rows of its `elite` best members.
         trials: (members, parameters) out.
         lanes: (parameters, lanes) out: the same, a column each; spare lanes repeat the first.
     """
     count, parameters = members.shape
     generation_key = subkey(run, generation)
-    pull, scale, crossover = breeding.pull, breeding.scale, breeding.crossover
+    pull, crossover = breeding.pull, breeding.crossover
     lower, upper = breeding.lower, breeding.upper
     for i in range(count):
         key, me = subkey(generation_key, i), np.uint64(i)
         forced = np.int64(draw(key, parameters) % np.uint64(parameters))
         a, plus, minus = partners(key, me, np.uint64(count), parameters)
+        own_bits = draw(key, _OWN)
+        best = leaders[np.int64(low_uniform(own_bits) * leaders.shape[0])]
+        scale = breeding.scale + breeding.spread * (2.0 * high_uniform(own_bits) - 1.0)
+        if breeding.downhill and costs[minus] < costs[plus]:
+            plus, minus = minus, plus
         origin = me if breeding.from_current else a
         for j in range(parameters):
             bits = draw(key, j)
@@ -114,11 +145,11 @@ def select(members, costs, trials, trial_costs):
 
 @compiled
 def summarise(costs):
-    """Returns the place of the lowest cost, that cost, and the mean cost."""
+    """Returns the lowest and the mean cost."""
     best, count = 0, costs.shape[0]
     total = 0.0
     for i in range(count):
         total += costs[i]
         if costs[i] < costs[best]:
             best = i
-    return np.uint64(best), costs[best], total / count
+    return costs[best], total / count

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from boresight.kernels.breeding import breed, select, summarise
+import numpy as np
+
+from boresight.kernels.breeding import breed, lead, select, summarise
 from boresight.kernels.compiling import compiled
 from boresight.kernels.sweeping import sweep
 
@@ -34,12 +36,13 @@ def evolve_generations(
     """
     since, reference = stale
     target, patience, tolerance = limits
-    best, lowest, mean = summarise(costs)
+    leaders = np.empty(min(breeding.elite, members.shape[0]), dtype=np.uint64)
     for step in range(history.shape[0]):
-        breed(run, first + step, breeding, members, best, trials, lanes)
+        lead(costs, leaders)
+        breed(run, first + step, breeding, members, costs, leaders, trials, lanes)
         sweep(program, rows, work, lanes, lane_costs)
         select(members, costs, trials, lane_costs)
-        best, lowest, mean = summarise(costs)
+        lowest, mean = summarise(costs)
         history[step, 0], history[step, 1] = lowest, mean
         if lowest < reference * (1.0 - tolerance):
             reference = lowest

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from boresight.kernels.breeding import Breeding, breed, select, sow, summarise
+from boresight.kernels.breeding import Breeding, breed, lead, select, sow
 from boresight.kernels.programs import WORST, aligned, padded
 from boresight.kernels.random import run_key
 from boresight.search.box import Box
@@ -24,7 +24,7 @@ from boresight.search.strategies import TRADE_OFF, Strategy
 
 @dataclass(frozen=True, slots=True)
 class DifferentialEvolution:
-    """The settings of an evolution; the defaults are the paper's (eq. 24).
+    """The settings of an evolution; those left out are the strategy's own, by default the paper's (eq. 24).
 
     Attributes:
         strategy: how mutants are made.
@@ -34,11 +34,14 @@ class DifferentialEvolution:
     """
 
     strategy: Strategy = TRADE_OFF
-    population: int = 150
-    scale: float = 0.6
-    crossover: float = 0.9
+    population: int = None  # type: ignore[assignment]
+    scale: float = None  # type: ignore[assignment]
+    crossover: float = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
+        for name in ("population", "scale", "crossover"):
+            if getattr(self, name) is None:
+                object.__setattr__(self, name, getattr(self.strategy, name))
         if self.population < 5:
             raise ValueError(f"a population needs at least 5 members, got {self.population}")
 
@@ -46,7 +49,15 @@ class DifferentialEvolution:
         """Returns these settings as the compiled loop takes them."""
         pull = self.scale if self.strategy.pull is None else self.strategy.pull
         return Breeding(
-            self.strategy.from_current, float(pull), float(self.scale), float(self.crossover), box.lower, box.upper
+            from_current=self.strategy.from_current,
+            pull=float(pull),
+            scale=float(self.scale),
+            spread=float(self.strategy.spread),
+            crossover=float(self.crossover),
+            downhill=self.strategy.downhill,
+            elite=max(1, round(self.strategy.elite * self.population)),
+            lower=box.lower,
+            upper=box.upper,
         )
 
 
@@ -91,9 +102,10 @@ def ask(settings: DifferentialEvolution, box: Box, population: Population) -> Fl
         return population.members.copy()
     count, parameters = population.members.shape
     trials, lanes = aligned(count, parameters), aligned(parameters, padded(count))
-    best, _, _ = summarise(population.costs)
-    key = np.uint64(population.key)
-    breed(key, population.generation, settings.breeding(box), population.members, best, trials, lanes)
+    breeding, key = settings.breeding(box), np.uint64(population.key)
+    leaders = np.empty(min(breeding.elite, count), dtype=np.uint64)
+    lead(population.costs, leaders)
+    breed(key, population.generation, breeding, population.members, population.costs, leaders, trials, lanes)
     return trials
 
 

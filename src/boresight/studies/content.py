@@ -37,6 +37,9 @@ def key_of(
         "format": RUN_FORMAT,
         "convention": cell.arm.convention,
         "joints": [asdict(joint) for joint in cell.arm.joints],
+        "root": asdict(cell.arm.root),
+        "tip": asdict(cell.arm.tip),
+        "gravity": list(cell.arm.gravity),
         "sensor": {"type": cell.sensor.type, **asdict(cell.sensor)},  # type: ignore[call-overload]
         "base": asdict(cell.base),
         "mount": asdict(cell.mount),
