@@ -165,7 +165,7 @@ def import_(
     *,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     robot: Path | None = None,
-    joints: list[str] | None = None,
+    joints: Annotated[list[str] | None, Parameter(negative="")] = None,
     range: str | None = None,
     position: str | None = None,
     target: str | None = None,

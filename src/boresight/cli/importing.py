@@ -11,7 +11,7 @@ from rich.markup import escape
 
 from boresight.cli.consoles import PipedConsole, print_plain
 from boresight.errors import InputError, OutputError
-from boresight.files.bag_observations import notes_of
+from boresight.files.bag_observations import remarks_of
 from boresight.files.bags import is_bag
 from boresight.files.dialects import described, in_house_words
 from boresight.files.joint_logs import paired
@@ -75,7 +75,7 @@ def _check(choice: Choice) -> None:
 def _bag(path: Path, choice: Choice, robot: Path | None) -> tuple[dict[str, object], str]:
     names = load_robot(robot).joint_names if robot else None
     recorded = read_recorded(path, str(path), choice, names)
-    return _summary(recorded), f"# {path.name}, from {began(recorded.start)} on\n{rows_csv(recorded)}"
+    return _summary(recorded), rows_csv(recorded)
 
 
 def _summary(recorded: Recorded) -> dict[str, object]:
@@ -96,12 +96,14 @@ def _summary(recorded: Recorded) -> dict[str, object]:
         "repeats": {"median": float(np.median(rows.repeats)), "min": int(rows.repeats.min())},
         "scatter_m": rows.scatter.tolist(),
         "std_m": {"median": float(np.median(rows.std)), "max": float(rows.std.max())},
-        "notes": list(notes_of(recorded)),
+        "notes": list(remarks_of(recorded)),
         "warnings": list(recorded.bag.losses),
     }
 
 
-def _table(path: Path, robot: Path | None, joint_file: Path | None, marker: int | None) -> tuple[dict[str, object], str]:
+def _table(
+    path: Path, robot: Path | None, joint_file: Path | None, marker: int | None
+) -> tuple[dict[str, object], str]:
     name, mend = str(path), "thin it or split it"
     arm = load_robot(robot) if robot else None
     source = read_source(path, name, kind="a CSV file or a ROS bag", limit_mib=LIMIT_MIB, mend=mend)
@@ -111,13 +113,15 @@ def _table(path: Path, robot: Path | None, joint_file: Path | None, marker: int 
             f"{name}: the columns are neither FIGAROH's (x1, y1, z1, joints) nor Leica's (X [mm], Y [mm], Z [mm]), and "
             "this is no ROS bag; a file with the columns of docs/files.md needs no import"
         )
-    notes, warnings = [f"{name}: {described(translation)}."], []
+    notes, warnings = [described(translation)], []
     count = sum(1 for _ in rows_of_cells(ours)) - 1
     if joint_file is not None:
-        log = read_source(joint_file, str(joint_file), kind="a CSV file of joint readings", limit_mib=LIMIT_MIB, mend=mend)
+        log = read_source(
+            joint_file, str(joint_file), kind="a CSV file of joint readings", limit_mib=LIMIT_MIB, mend=mend
+        )
         pairs = paired(ours, log, arm.joint_names if arm else None)
         ours, count = pairs.source, pairs.count
-        notes.append(f"{joint_file}: joints and measurements were paired {'by time' if pairs.by_time else 'row by row'}.")
+        notes.append(f"Joints and measurements were paired {'by time' if pairs.by_time else 'row by row'}.")
         lines = ", ".join(map(str, pairs.left_out[:6])) + (" and others" if len(pairs.left_out) > 6 else "")
         if pairs.left_out:
             warnings.append(f"{name}: {len(pairs.left_out)} rows are at times without joints (lines {lines})")
@@ -132,16 +136,16 @@ def _table(path: Path, robot: Path | None, joint_file: Path | None, marker: int 
 
 def _show(console: Console, summary: dict) -> None:
     """Prints what was found."""
-    out = {"soft_wrap": True, "highlight": False}
-    console.print(f"[bold]{summary['rows']}[/] rows out of {escape(summary['source'])}.", **out)
+    said = [f"[bold]{summary['rows']}[/] rows out of {escape(summary['source'])}."]
     if "used" in summary:
         counts = summary["messages"]
         used = ", ".join(f"{key} {topic}" for key, topic in summary["used"].items())
-        console.print(f"  {counts['joint_states']} joint states, {counts['readings']} readings: {escape(used)}.", **out)
         scatter, std = max(summary["scatter_m"]), summary["std_m"]["median"]
-        console.print(f"  One reading scatters by {in_millimetres(scatter)}; a row is known to {in_millimetres(std)}.", **out)
-    for note in summary["notes"]:
-        console.print(f"  {escape(note)}", **out)
-    for warning in summary["warnings"]:
-        console.print(f"[yellow]Warning:[/] {escape(warning)}", **out)
-    console.print(f"Files: {escape(summary['output'])}", **out)
+        said += [
+            f"  {counts['joint_states']} joint states, {counts['readings']} readings: {escape(used)}.",
+            f"  One reading scatters by {in_millimetres(scatter)}; a row is known to {in_millimetres(std)} (median).",
+        ]
+    said += [f"  {escape(note)}" for note in summary["notes"]]
+    said += [f"[yellow]Warning:[/] {escape(warning)}" for warning in summary["warnings"]]
+    for line in (*said, f"Files: {escape(summary['output'])}"):
+        console.print(line, soft_wrap=True, highlight=False)

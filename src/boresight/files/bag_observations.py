@@ -19,6 +19,8 @@ from boresight.sensing import Cell
 from boresight.units import Units, in_millimetres
 
 _KINDS = {"laser_ranger": "range", "position": "position"}
+_TOLD = 3
+_ALIKE = 1.2
 _LOUD = 3.0
 """Readings that scatter this many times as much, or as little, as the campaign says are worth a word."""
 
@@ -45,7 +47,11 @@ def read_bag_observations(path: Path, *, cell: Cell, entry: DataEntry, named_by:
     source = Source(path, entry.name, rows_csv(recorded).encode())
     found = observations_of(source, cell, Units())
     warnings = (*recorded.bag.losses, *_scatter(recorded, cell), *found.warnings)
-    return replace(found, warnings=warnings, sha256=recorded.bag.sha256, notes=notes_of(recorded))
+    notes = [f"{entry.name}: {remark}" for remark in remarks_of(recorded)]
+    notes += [
+        f"{entry.name}: Its lines, where any are named, are those of the file that `boresight import` makes of it."
+    ]
+    return replace(found, warnings=warnings, sha256=recorded.bag.sha256, notes=tuple(notes))
 
 
 def choice_of(entry: DataEntry) -> Choice:
@@ -61,22 +67,19 @@ def choice_of(entry: DataEntry) -> Choice:
     )
 
 
-def notes_of(recorded: Recorded) -> tuple[str, ...]:
+def remarks_of(recorded: Recorded) -> tuple[str, ...]:
     """Returns how the rows of a bag came to be, a sentence each."""
-    name, rows = recorded.bag.name, recorded.rows
-    phases = len(rows) + len(rows.skipped)
-    notes = [
-        f"{len(rows)} of {phases} still phases gave a row each, {int(np.median(rows.repeats))} readings in the median; "
-        f"the lines told of are those that `boresight import {name}` writes"
-    ]
-    notes += [f"no row from {s.start:.2f} s to {s.end:.2f} s: {s.reason}" for s in rows.skipped[:3]]
-    notes += [f"no row of {len(rows.skipped) - 3} more phases"] if len(rows.skipped) > 3 else []
-    empty = [f"{count} ({reason})" for reason, count in recorded.empty.items()]
-    notes += [f"readings set aside: {', '.join(empty)}"] if empty else []
-    notes += [f"{rows.outlying} readings were left out as gross errors of their phase"] if rows.outlying else []
-    if rows.likeness > 1.2:
-        notes += [f"neighbouring readings are alike, so the means are {rows.likeness:.1f} times less certain"]
-    return tuple(printable(f"{name}: {note}.") for note in (*notes, *(remark[:-1] for remark in recorded.remarks)))
+    rows, empty = recorded.rows, [f"{count} ({reason})" for reason, count in recorded.empty.items()]
+    repeats = int(np.median(rows.repeats))
+    phases = f"{len(rows)} of {len(rows) + len(rows.skipped)} still phases gave a row each"
+    remarks = [f"{phases}, of {repeats} readings in the median."]
+    remarks += [f"No row from {s.start:.2f} s to {s.end:.2f} s: {s.reason}." for s in rows.skipped[:_TOLD]]
+    remarks += [f"No row of {len(rows.skipped) - _TOLD} more phases."] if len(rows.skipped) > _TOLD else []
+    remarks += [f"Readings without a value: {', '.join(empty)}."] if empty else []
+    remarks += [f"{rows.outlying} readings were left out as gross errors of their phase."] if rows.outlying else []
+    if rows.likeness > _ALIKE:
+        remarks += [f"Neighbouring readings are alike, which makes the means {rows.likeness:.1f} times less certain."]
+    return tuple(printable(remark) for remark in (*remarks, *recorded.remarks))
 
 
 def _scatter(recorded: Recorded, cell: Cell) -> list[str]:

@@ -10,8 +10,8 @@ from typing import cast
 from boresight.arm import Arm
 from boresight.calibration.campaign import Campaign, Freedom
 from boresight.errors import InputError, did_you_mean
-from boresight.files.bags.storages import is_bag
 from boresight.files.bag_observations import read_bag_observations
+from boresight.files.bags.storages import is_bag
 from boresight.files.documents import Document, read_document
 from boresight.files.explaining import validated
 from boresight.files.observations import Observations, read_observations

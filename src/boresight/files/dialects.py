@@ -114,7 +114,9 @@ def _figaroh(
 ) -> Translation:
     known = ", ".join(map(str, sorted(markers)))
     if marker is None and len(markers) > 1:
-        raise InputError(f"the file holds the markers {known}; choose one: boresight import FILE --marker {min(markers)}")
+        raise InputError(
+            f"the file holds the markers {known}; choose one: boresight import FILE --marker {min(markers)}"
+        )
     chosen = min(markers) if marker is None else marker
     if chosen not in markers:
         raise InputError(f"there is no marker {chosen}; the file holds {known}")
@@ -182,4 +184,4 @@ def _quaternion(part: int) -> Callable[[str, str, str], str]:
 def described(translation: Translation) -> str:
     """Returns what was done to a file, in words."""
     left = f"; columns without a meaning here: {listed(translation.left_out)}" if translation.left_out else ""
-    return f"the file is {translation.dialect}'s{left}"
+    return f"The file is {translation.dialect}'s{left}."

@@ -65,7 +65,7 @@ def read_observations(
     except InputError as error:
         raise InputError(printable(f"{name}: {error}")) from None
     found = observations_of(ours, cell, units)
-    notes = (printable(f"{name}: {described(translation)}."),) if translation else ()
+    notes = (printable(f"{name}: {described(translation)}"),) if translation else ()
     return replace(found, sha256=source.sha256, notes=notes)
 
 

@@ -11,7 +11,6 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
 
 from boresight.errors import InputError, did_you_mean
 from boresight.files.bags import Bag, read_bag
@@ -19,6 +18,7 @@ from boresight.files.clocks import Clock, clock_of
 from boresight.files.problems import listed, printable, shown
 from boresight.files.topics import CHANNELS, Choice, Topics, topics_of
 from boresight.recordings import Rows, Rules, Signal, Trajectory, rows_of
+
 
 @dataclass(frozen=True)
 class Recorded:
@@ -75,7 +75,9 @@ def read_recorded(
     readings, reasons = _readings(bag, topics, clock, choice.time_offset)
     start = min(min(joints[n].time[0] for n in names), readings.time[0])
     trajectory = Trajectory.of(names, {n: _from(joints[n], start) for n in names}, choice.rules.longest_gap)
-    rows = rows_of(trajectory, _from(readings, start), choice.rules, _targets(bag, topics.targets, choice, clock, start))
+    rows = rows_of(
+        trajectory, _from(readings, start), choice.rules, _targets(bag, topics.targets, choice, clock, start)
+    )
     if not len(rows):
         raise InputError(printable(_no_rows(name, rows, trajectory, choice.rules)))
     others = sorted(set(joints) - set(names))
@@ -97,8 +99,9 @@ def read_recorded(
 
 
 def rows_csv(recorded: Recorded) -> str:
-    """Returns the text of an observations.csv, in metres and radians; its row k is on line k + 2."""
+    """Returns the text of an observations.csv, in metres and radians."""
     rows, text = recorded.rows, io.StringIO()
+    text.write(f"# {printable(Path(recorded.bag.name).name)}, from {began(recorded.start)} on\n")
     writer = csv.writer(text, lineterminator="\n")
     stds = ([] if not recorded.scatters else ["std"] if len(recorded.channels) == 1 else
             [f"std_{channel}" for channel in recorded.channels])  # fmt: skip
@@ -168,15 +171,15 @@ def _readings(bag: Bag, topics: Topics, clock: Clock, offset: float) -> tuple[Si
     return Signal.of(time, np.where(reason == "", value, np.nan)[:, None]), dict(sorted(counts.items()))
 
 
-def _targets(
-    bag: Bag, words: str | None, choice: Choice, clock: Clock, start: float
-) -> list[tuple[float, str]] | None:
+def _targets(bag: Bag, words: str | None, choice: Choice, clock: Clock, start: float) -> list[tuple[float, str]] | None:
     """Returns from when on the sensor pointed at what; None where nothing tells."""
     if words is None:
         return [(-np.inf, choice.target)] if choice.target is not None else None
     messages = bag.messages[words]
     told = sorted(zip((clock.time(messages) - start).tolist(), messages.values, strict=True))
-    return ([(-np.inf, choice.target)] if choice.target else []) + [(t, " ".join(word.replace("#", "").split())) for t, word in told]
+    return ([(-np.inf, choice.target)] if choice.target else []) + [
+        (t, " ".join(word.replace("#", "").split())) for t, word in told
+    ]
 
 
 def _from(signal: Signal, start: float) -> Signal:

@@ -111,7 +111,9 @@ def _check_type(bag: Bag, key: str, topic: str, types: tuple[str, ...]) -> None:
     else:
         return
     lost = "".join(f"; {loss}" for loss in bag.losses)
-    raise InputError(printable(f"{bag.name}: {given}; expected {' or '.join(types)}; the bag holds {bag.listing}{lost}"))
+    raise InputError(
+        printable(f"{bag.name}: {given}; expected {' or '.join(types)}; the bag holds {bag.listing}{lost}")
+    )
 
 
 def _only(bag: Bag, key: str, types: tuple[str, ...]) -> str:

@@ -38,7 +38,7 @@ class Rows:
         skipped: still phases without a row.
         outlying: readings left out as gross errors of their phase.
         missing: readings within still phases that hold no value.
-        scatter: (channels,) median standard deviation of one reading [m].
+        scatter: (channels,) standard deviation of one reading in the median phase [m].
         likeness: factor on `std` since neighbouring readings are alike.
     """
 
@@ -73,7 +73,7 @@ def rows_of(
     phases = still_phases(trajectory, rules)
     pieces = _by_target(phases, targets) if targets is not None else [(*phase, "") for phase in phases]
     quantum = step_of(readings.values[np.isfinite(readings.values).all(axis=1)])
-    kept, skipped, outlying, missing = [], [], 0, 0
+    kept, skipped, missing = [], [], 0
     for start, end, target in pieces:
         samples = readings.between(start, end)
         values, time = readings.values[samples], readings.time[samples]
@@ -88,41 +88,46 @@ def rows_of(
         elif not there.any():
             reason = f"none of its {len(values)} readings holds a value"
         else:
-            values, time = values[there], time[there]
-            good = usual(values, quantum)
-            outlying += int(np.sum(~good))
-            when = float(time[good].mean())
-            kept.append((trajectory.during(start, end, when), values[good], when, target))
+            kept.append(_Piece(start, end, target, time[there], values[there]))
             continue
         skipped.append(Skipped(float(start), float(end), reason))
-    return _assembled(kept, tuple(skipped), outlying, missing, quantum, trajectory, targets is not None)
+    return _rows(kept, tuple(skipped), missing, quantum, trajectory, targets is not None)
 
 
-def _assembled(
-    kept: list[tuple[np.ndarray, np.ndarray, float, str]],
+@dataclass(frozen=True)
+class _Piece:
+    """A still phase of one target, and what the sensor read meanwhile."""
+
+    start: float
+    end: float
+    target: str
+    time: np.ndarray
+    values: np.ndarray
+
+
+def _rows(
+    pieces: list[_Piece],
     skipped: tuple[Skipped, ...],
-    outlying: int,
     missing: int,
     quantum: Float[np.ndarray, " channels"],
     trajectory: Trajectory,
     named: bool,
 ) -> Rows:
-    if not kept:
-        none, channels = np.empty(0), len(quantum)
-        empty = np.empty((0, channels))
-        joints = np.empty((0, len(trajectory.names)))
-        return Rows(joints, empty, empty, none.astype(int), none, None, skipped, outlying, missing, quantum, 1.0)
-    joints, values, time, target = zip(*kept, strict=True)
-    mean = averages(values, quantum)
+    if not pieces:
+        none, empty, joints = np.empty(0), np.empty((0, len(quantum))), np.empty((0, len(trajectory.names)))
+        return Rows(joints, empty, empty, none.astype(int), none, None, skipped, 0, missing, quantum, 1.0)
+    good = usual([piece.values for piece in pieces], quantum)
+    mean = averages([piece.values[usable] for piece, usable in zip(pieces, good, strict=True)], quantum)
+    time = np.array([piece.time[usable].mean() for piece, usable in zip(pieces, good, strict=True)])
     return Rows(
-        np.stack(joints),
+        np.stack([trajectory.during(p.start, p.end, when) for p, when in zip(pieces, time.tolist(), strict=True)]),
         mean.means,
         mean.std,
-        np.array([len(each) for each in values]),
-        np.array(time),
-        tuple(target) if named else None,
+        np.array([int(np.sum(usable)) for usable in good]),
+        time,
+        tuple(piece.target for piece in pieces) if named else None,
         skipped,
-        outlying,
+        int(sum(np.sum(~usable) for usable in good)),
         missing,
         mean.scatter,
         mean.likeness,

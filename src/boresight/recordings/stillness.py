@@ -18,6 +18,9 @@ _NOISE_FACTOR = 6.0
 _QUIETEST = 25.0
 """Percentile of the stretches of a signal whose scatter is taken for its noise: most of the others may be in motion."""
 
+_QUIET_SHARE = 0.75
+"""Of pure noise, that percentile is this much of the standard deviation, by simulation."""
+
 
 def still_phases(trajectory: Trajectory, rules: Rules) -> Float[np.ndarray, "phases 2"]:
     """Returns from when to when [s] no joint moved, trimmed and long enough, in order.
@@ -62,7 +65,7 @@ def _noise(values: Float[np.ndarray, " samples"]) -> float:
         return 0.0
     second = np.diff(values, 2)
     stretches = second[: len(second) // 10 * 10].reshape(-1, 10)
-    return float(np.percentile(np.sqrt(np.mean(stretches**2, axis=1) / 6.0), _QUIETEST))
+    return float(np.percentile(np.sqrt(np.mean(stretches**2, axis=1) / 6.0), _QUIETEST)) / _QUIET_SHARE
 
 
 def _still(signal: Signal, gap: float, still_speed: float) -> Float[np.ndarray, "phases 2"]:

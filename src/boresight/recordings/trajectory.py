@@ -27,9 +27,7 @@ class Trajectory:
     longest_gap: tuple[float, ...]
 
     @classmethod
-    def of(
-        cls, names: Sequence[str], signals: Mapping[str, Signal], longest_gap: float | None = None
-    ) -> Trajectory:
+    def of(cls, names: Sequence[str], signals: Mapping[str, Signal], longest_gap: float | None = None) -> Trajectory:
         """Returns the trajectory of some joints.
 
         Args:

@@ -10,7 +10,7 @@ from pathlib import Path
 from boresight.errors import InputError
 from boresight.files.bags.messages import TYPES, Decoded, decode
 from boresight.files.bags.storages import digest, files_of, read_storage
-from boresight.files.bags.tape import Tape
+from boresight.files.bags.tape import Tape, TooMuch
 from boresight.files.problems import printable
 
 _TOPICS_TOLD = 12
@@ -71,10 +71,12 @@ def read_bag(path: Path, name: str, topics: Collection[str] = ()) -> Bag:
     tape = Tape(name, TYPES, frozenset(topics))
     try:
         files = files_of(path, name, tape)
-        refused = []
+        refused: list[str] = []
         for file in files:
             try:
                 read_storage(file, f"{name}/{file.name}" if path.is_dir() else name, tape)
+            except TooMuch:
+                raise
             except InputError as error:  # the other files of a bag may be in order
                 refused += error.problems
         sha256 = digest(files)

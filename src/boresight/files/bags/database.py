@@ -17,7 +17,9 @@ MAGIC = b"SQLite format 3\0"
 _BESIDE = ("-wal", "-journal")
 """What a recorder that died leaves beside its database: without it the last messages are missing."""
 
-_FARTHEST_LEAP = 2**40
+_LOWEST, _FARTHEST_LEAP = -(2**62), 2**40
+_SMALLEST_ROW = 8
+"""Bytes of a file that a row takes at least."""
 _TABLES = "SELECT name, type, sql FROM sqlite_master WHERE name IN ('topics', 'messages')"
 
 
@@ -34,23 +36,26 @@ def read_database(path: Path, name: str, tape: Tape) -> None:
     """
     beside = [Path(f"{path}{end}") for end in _BESIDE if Path(f"{path}{end}").is_file()]
     if not any(file.stat().st_size for file in beside):
-        return _read(f"{path.absolute().as_uri()}?immutable=1", name, tape)
+        return _read(f"{path.absolute().as_uri()}?immutable=1", name, tape, path.stat().st_size)
     # SQLite takes such files in by writing; a copy is written to, not the user's bag.
     with TemporaryDirectory() as folder:
         copy = Path(folder) / "bag.db3"
         for end, file in (("", path), *((str(file)[len(str(path)) :], file) for file in beside)):
             copyfile(file, f"{copy}{end}")
-        return _read(copy.as_uri(), name, tape)
+        return _read(copy.as_uri(), name, tape, sum(file.stat().st_size for file in (path, *beside)))
 
 
-def _read(uri: str, name: str, tape: Tape) -> None:
+def _read(uri: str, name: str, tape: Tape, size: int) -> None:
+    most = tape.total + size // _SMALLEST_ROW
     try:
         with closing(sqlite3.connect(uri, uri=True)) as connection:
             connection.text_factory = lambda text: text.decode("utf-8", "replace")
             connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, 256 * 2**20)
             connection.execute("PRAGMA trusted_schema = OFF")
+            # Without this, SQLite refuses a file that is shorter than its header says.
+            connection.execute("PRAGMA writable_schema = ON")
             topics = _topics(connection, name, tape)
-            for number, received, length, data in _messages(connection, name, topics, tape):
+            for number, received, length, data in _messages(connection, name, topics, tape, most):
                 topic = topics.get(number, "")
                 if isinstance(data, bytes) and isinstance(received, int) and length <= LARGEST_MESSAGE:
                     tape.keep(topic, received, data)
@@ -75,7 +80,7 @@ def _topics(connection: sqlite3.Connection, name: str, tape: Tape) -> dict[objec
 
 
 def _messages(
-    connection: sqlite3.Connection, name: str, topics: dict[object, str], tape: Tape
+    connection: sqlite3.Connection, name: str, topics: dict[object, str], tape: Tape, most: int
 ) -> Iterator[tuple[object, object, int, object]]:
     """Yields (topic number, received [ns], length, data or None) of every row that can be read, in order.
 
@@ -87,11 +92,16 @@ def _messages(
         f"CASE WHEN topic_id IN ({','.join('?' * len(wanted))}) AND length(data) <= {LARGEST_MESSAGE} THEN data END "
         "FROM messages WHERE id > ? ORDER BY id"
     )
-    last, leap, damaged = -(2**62), 1, ""
-    while leap < _FARTHEST_LEAP:
+    last, before, leap, damaged = _LOWEST, _LOWEST, 1, ""
+    while leap < _FARTHEST_LEAP and tape.total < most:
         try:
             for number, topic, received, length, data in connection.execute(query, (*wanted, last)):
-                last, leap = number, 1
+                if number <= last or tape.total >= most:
+                    # Pages that lead back to one another would be read for ever, and a number that is far too high
+                    # would hide all that follow.
+                    last = before
+                    raise sqlite3.DatabaseError("rows out of order")
+                before, last, leap = last, number, 1
                 yield topic, received, length or 0, data
             break
         except sqlite3.DatabaseError as error:

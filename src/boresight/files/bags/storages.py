@@ -41,7 +41,9 @@ def files_of(path: Path, name: str, tape: Tape) -> list[Path]:
         raise InputError(f"{name}: there is no such file or folder; expected a rosbag2 folder or an .mcap file")
     found = sorted((p for p in path.iterdir() if p.name.lower().endswith(SUFFIXES) and p.is_file()), key=_by_number)
     if not found:
-        raise InputError(f"{name}: there is no {' or '.join(SUFFIXES[:2])} file in this folder; expected a rosbag2 folder")
+        raise InputError(
+            f"{name}: there is no {' or '.join(SUFFIXES[:2])} file in this folder; expected a rosbag2 folder"
+        )
     there = {file.name for file in found}
     for missing in [file for file in _listed(path, name, tape) if file not in there]:
         tape.lose(f"{name}: {_METADATA} lists {missing}, which is not there")

@@ -17,6 +17,10 @@ LARGEST_MESSAGE = 2**20
 _TOLD = 10
 
 
+class TooMuch(InputError):
+    """There are more messages than memory should hold."""
+
+
 @dataclass
 class Tape:
     """Messages of the wanted topics, how many there were of every topic, and what could not be read.
@@ -64,12 +68,12 @@ class Tape:
         """Counts and keeps a message.
 
         Raises:
-            InputError: the messages kept are too many for the memory they deserve.
+            TooMuch: the messages kept are too many for the memory they deserve.
         """
         self.counts[topic] += 1
         self._bytes += len(data) + 64
         if self._bytes > LIMIT_MIB * 2**20:
-            raise InputError(
+            raise TooMuch(
                 f"{self.name}: the messages of {', '.join(sorted(self.kept))} hold more than {LIMIT_MIB} MiB; "
                 "name the topics to read, or split the bag"
             )
