@@ -5,12 +5,12 @@ import sys
 
 import numpy as np
 import pytest
-import ros_bags as bags
-from ros_bags import T0, Script
 
+import ros_bags as bags
 from boresight.errors import InputError
 from boresight.files.bags import bag as bag_module
 from boresight.files.bags import is_bag, read_bag, tape
+from ros_bags import T0, Script
 
 WRITTEN = [
     ("mcap", None),

@@ -6,15 +6,15 @@ import sqlite3
 import struct
 
 import pytest
-import ros_bags as bags
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from ros_bags import T0, Script
 
+import ros_bags as bags
 from boresight.errors import InputError
 from boresight.files.bags import mcap, read_bag
 from boresight.files.recorded import read_recorded
 from boresight.files.topics import Choice
+from ros_bags import T0
 
 FUZZ = settings(max_examples=80, suppress_health_check=[HealthCheck.function_scoped_fixture])
 KINDS = [("mcap", None), ("mcap", "storage"), ("sqlite3", None)]
@@ -220,7 +220,9 @@ def test_a_view_in_place_of_the_messages_is_not_run(tmp_path):
     endless = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n)"
     with contextlib.closing(sqlite3.connect(tmp_path / "run.db3")) as database:
         database.execute("CREATE TABLE topics (id INTEGER, name, type, serialization_format)")
-        database.execute(f"CREATE VIEW messages AS {endless} SELECT i AS id, 1 AS topic_id, 1 AS timestamp, '' AS data FROM n")
+        database.execute(
+            f"CREATE VIEW messages AS {endless} SELECT i AS id, 1 AS topic_id, 1 AS timestamp, '' AS data FROM n"
+        )
         database.commit()
     with pytest.raises(InputError, match="this database is not a ROS 2 bag"):
         read_bag(tmp_path / "run.db3", "run.db3")

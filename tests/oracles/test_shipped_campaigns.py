@@ -17,6 +17,7 @@ SIMULATED = {
     "space-arm-one-plane": (7.40, 0.040),
     "space-arm-three-planes": (14.2, 0.070),
     "seven-axis": (13.6, 0.050),
+    "ros-bag": (28.7, 0.050),
 }
 
 

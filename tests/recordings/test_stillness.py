@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from ros_bags import motion, stops
 
 from boresight.recordings import Rules, Signal, Trajectory, still_phases
 from boresight.recordings.stillness import speeds
+from ros_bags import motion, stops
 
 RULES = Rules()
 REST, MOVE = 1.2, 0.8

@@ -136,7 +136,8 @@ def _table(
 
 def _show(console: Console, summary: dict) -> None:
     """Prints what was found."""
-    said = [f"[bold]{summary['rows']}[/] rows out of {escape(summary['source'])}."]
+    rows = summary["rows"]
+    said = [f"[bold]{rows}[/] row{'s' if rows != 1 else ''} out of {escape(summary['source'])}."]
     if "used" in summary:
         counts = summary["messages"]
         used = ", ".join(f"{key} {topic}" for key, topic in summary["used"].items())

@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 
 from boresight.arm import Joint
 from boresight.errors import InputError
-from boresight.files.problems import Problems, listed
+from boresight.files.problems import Problems, listed, printable
 from boresight.files.sources import Source
 from boresight.files.tables import rows_of_cells
 from boresight.units import Units
@@ -90,7 +90,10 @@ def in_house_words(
     """Returns a file's content in the house's words, and what became of its columns; None where nothing did."""
     for _, names in rows_of_cells(source):
         header = [name.strip() for name in names]
-        translation = translation_of(header, joints, units, marker)
+        try:
+            translation = translation_of(header, joints, units, marker)
+        except InputError as error:
+            raise InputError(printable(f"{source.name}: {error}")) from None
         return (source, None) if translation is None else (_translated(source, translation, len(header)), translation)
     return source, None
 

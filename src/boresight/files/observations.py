@@ -60,10 +60,7 @@ def read_observations(
     name = str(path) if name is None else name
     mend = "thin it or split it"
     source = read_source(Path(path), name, kind="a CSV file", limit_mib=LIMIT_MIB, mend=mend, named_by=named_by)
-    try:
-        ours, translation = in_house_words(source, cell.arm.joints, units)
-    except InputError as error:
-        raise InputError(printable(f"{name}: {error}")) from None
+    ours, translation = in_house_words(source, cell.arm.joints, units)
     found = observations_of(ours, cell, units)
     notes = (printable(f"{name}: {described(translation)}"),) if translation else ()
     return replace(found, sha256=source.sha256, notes=notes)

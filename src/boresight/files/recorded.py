@@ -16,8 +16,12 @@ from boresight.errors import InputError, did_you_mean
 from boresight.files.bags import Bag, read_bag
 from boresight.files.clocks import Clock, clock_of
 from boresight.files.problems import listed, printable, shown
+from boresight.files.schemas import SMALLEST
 from boresight.files.topics import CHANNELS, Choice, Topics, topics_of
 from boresight.recordings import Rows, Rules, Signal, Trajectory, rows_of
+
+_FINEST = 1e-6
+"""Rounding to less than this [m] is that of floating point, and says nothing of the sensor."""
 
 
 @dataclass(frozen=True)
@@ -48,8 +52,9 @@ class Recorded:
 
     @property
     def scatters(self) -> bool:
-        """Whether readings differ, so that a standard deviation can be told from them."""
-        return bool((self.rows.std >= 1e-12).all())
+        """Whether readings of a phase differ, or are rounded to steps, so that a standard deviation can be told."""
+        rows = self.rows
+        return bool((rows.std >= SMALLEST).all() and ((rows.scatter > 0.0).any() or (rows.std >= _FINEST).all()))
 
 
 def read_recorded(

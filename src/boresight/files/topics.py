@@ -120,10 +120,10 @@ def _only(bag: Bag, key: str, types: tuple[str, ...]) -> str:
     found = bag.of_type(types[0]) or bag.of_type(*types)
     if len(found) == 1:
         return found[0]
-    told = f"{len(found)} topics of {types[0]}" if found else f"no topic with messages of {' or '.join(types)}"
+    told = f"are {len(found)} topics of {types[0]}" if found else f"is no topic with messages of {' or '.join(types)}"
     mend = f"name one of them: {key}: {found[0]}" if found else f"expected one for {key}"
     lost = "".join(f"; {loss}" for loss in bag.losses)
-    raise InputError(printable(f"{bag.name}: there are {told}; {mend}; the bag holds {bag.listing}{lost}"))
+    raise InputError(printable(f"{bag.name}: there {told}; {mend}; the bag holds {bag.listing}{lost}"))
 
 
 def _target_topic(bag: Bag, choice: Choice) -> str | None:
