@@ -1,15 +1,19 @@
 """Bags as rosbags writes them, in every storage and compression: what comes out is what went in."""
 
+import random
 import shutil
 import sys
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import ros_bags as bags
 from boresight.errors import InputError
 from boresight.files.bags import bag as bag_module
 from boresight.files.bags import is_bag, read_bag, tape
+from boresight.files.bags.messages import decode
 from ros_bags import T0, Script
 
 WRITTEN = [
@@ -148,6 +152,29 @@ def test_what_the_bag_brings_as_definitions_is_never_made_code(tmp_path):
     path.write_bytes(evil)
     check(read_bag(path, "run.mcap"))
     assert "rosbags.usertypes" not in sys.modules
+
+
+@settings(max_examples=40)
+@given(seed=st.integers(0, 2**32))
+def test_reading_by_the_layout_of_the_last_message_gives_what_the_decoder_gives(seed):
+    """Names, frames, lengths and byte order change on the way, and stay as they are for a while."""
+    draw, rng = random.Random(seed), np.random.default_rng(seed)
+    messages = []
+    for _ in range(4):
+        names = [draw.choice(["j", "shoulder", ""]) + str(k) for k in range(draw.randint(0, 5))]
+        frame, little = draw.choice(["", "b", "base_link"]), draw.random() < 0.8
+        for _ in range(3):
+            message = bags.joint_state(rng.uniform(1.0, 2e9), names, rng.choice([0.0, np.nan, 1.5, -2.0], len(names)))
+            message.header.frame_id = frame
+            message.velocity = rng.normal(size=draw.choice([0, len(names)]))
+            messages.append(bytes(bags.STORE.serialize_cdr(message, message.__msgtype__, little_endian=little)))
+    found = decode("sensor_msgs/msg/JointState", [(0, data) for data in messages])
+    assert (len(found), found.unreadable) == (len(messages), 0)
+    for data, (names, positions), stamp in zip(messages, found.values, found.stamp, strict=True):
+        expected = bags.STORE.deserialize_cdr(data, "sensor_msgs/msg/JointState")
+        assert list(names) == list(expected.name)
+        np.testing.assert_array_equal(positions, expected.position)
+        assert stamp == pytest.approx(expected.header.stamp.sec + 1e-9 * expected.header.stamp.nanosec, abs=1e-6)
 
 
 def test_too_much_to_keep_is_an_error_that_says_so(tmp_path, monkeypatch):

@@ -1,4 +1,4 @@
-"""Rows out of bags: topics chosen, clocks brought together, phases averaged; and campaigns whose observations are a bag."""
+"""Rows out of bags: topics, clocks, pauses; and campaigns whose observations are a bag."""
 
 import math
 
@@ -150,7 +150,7 @@ def test_a_known_offset_of_the_sensors_clock_is_taken_off(recorded, tmp_path):
 
 
 def test_targets_are_those_that_were_named_before_a_phase(recorded):
-    script, at = bags.run(6)
+    script, _ = bags.run(6)
     for time, name in ((0.0, "deck"), (3.7, "wall"), (7.7, "deck")):
         script.say(T0 + time, "/ranger/target", bags.word(name))
     found = recorded(script)

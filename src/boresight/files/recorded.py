@@ -16,7 +16,7 @@ from boresight.errors import InputError, did_you_mean
 from boresight.files.bags import Bag, read_bag
 from boresight.files.clocks import Clock, clock_of
 from boresight.files.problems import listed, printable, shown
-from boresight.files.schemas import SMALLEST
+from boresight.files.schemas import LARGEST, SMALLEST
 from boresight.files.topics import CHANNELS, Choice, Topics, topics_of
 from boresight.recordings import Rows, Rules, Signal, Trajectory, rows_of
 
@@ -130,16 +130,26 @@ def began(start: float) -> str:
 
 def _joint_signals(bag: Bag, topics: Sequence[str], clock: Clock) -> dict[str, Signal]:
     """Returns the samples of every joint of some topics, whoever published it."""
-    times: dict[str, list[float]] = {}
-    values: dict[str, list[float]] = {}
+    times: dict[str, list[np.ndarray]] = {}
+    values: dict[str, list[np.ndarray]] = {}
     for topic in topics:
         messages = bag.messages[topic]
-        for time, (names, positions) in zip(clock.time(messages).tolist(), messages.values, strict=True):
-            for joint, position in zip(names, positions.tolist(), strict=True):
-                if abs(position) < 1e9:  # neither NaN nor infinite: no reading otherwise
-                    times.setdefault(joint, []).append(time)
-                    values.setdefault(joint, []).append(position)
-    return {joint: Signal.of(np.array(times[joint]), np.array(values[joint])[:, None]) for joint in times}
+        time = clock.time(messages)
+        together: dict[tuple[str, ...], list[int]] = {}
+        for k, (names, _) in enumerate(messages.values):
+            together.setdefault(names, []).append(k)
+        for names, places in together.items():
+            positions = np.array([messages.values[k][1] for k in places])
+            for column, joint in enumerate(names):
+                times.setdefault(joint, []).append(time[places])
+                values.setdefault(joint, []).append(positions[:, column])
+    signals = {}
+    for joint in times:
+        when, position = np.concatenate(times[joint]), np.concatenate(values[joint])
+        read = np.abs(position) < LARGEST  # neither NaN nor infinite
+        if read.any():
+            signals[joint] = Signal.of(when[read], position[read][:, None])
+    return signals
 
 
 def _arm(bag: Bag, joints: dict[str, Signal], wanted: Sequence[str] | None) -> tuple[str, ...]:

@@ -70,10 +70,10 @@ def averages(
 ) -> Averages:
     """Returns the means of phases, at least one of one reading each, and how certain they are.
 
-    The variance of a mean is s²/n, with s² the phase's own variance drawn towards the median phase's as far as phases are alike, times how much
-    more the means of a phase's quarters differ than white noise would have them (over all phases together, at
-    least 1), plus what rounding does that noise does not average out: q²/12 exp(-(2 pi s / q)²) of a step q
-    (Widrow & Kollár 2008).
+    The variance of a mean is s²/n, with s² the phase's own variance drawn towards the median phase's as far as
+    phases are alike, times how much more the means of a phase's quarters differ than white noise would have them
+    (over all phases together, at least 1), plus what rounding does that noise does not average out:
+    q²/12 exp(-(2 pi s / q)²) of a step q (Widrow & Kollár 2008).
 
     Args:
         phases: the readings of each [m].

@@ -13,6 +13,10 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
+from boresight.files.bags.inflating import ZSTD_MAGIC, inflate
+from boresight.files.bags.joint_states import JointStateReader
+from boresight.files.bags.tape import LARGEST_MESSAGE
+
 JOINTS = ("sensor_msgs/msg/JointState",)
 RANGES = ("sensor_msgs/msg/Range", "std_msgs/msg/Float64", "std_msgs/msg/Float32")
 POSITIONS = ("geometry_msgs/msg/PointStamped",)
@@ -73,9 +77,6 @@ def _seconds(nanoseconds: list[int]) -> Float[np.ndarray, " messages"]:
 
 
 def _bare(data: bytes) -> bytes:
-    from boresight.files.bags.inflating import ZSTD_MAGIC, inflate
-    from boresight.files.bags.tape import LARGEST_MESSAGE
-
     return inflate(data, "zstd", LARGEST_MESSAGE)[0] if data.startswith(ZSTD_MAGIC) else data
 
 
@@ -95,7 +96,7 @@ def _reader(kind: str) -> Callable[[bytes], tuple[int, Any]]:
         stamp = message.header.stamp if hasattr(message, "header") else None
         return (stamp.sec * 10**9 + stamp.nanosec if stamp else 0), take(message)
 
-    return read
+    return JointStateReader(read) if kind in JOINTS else read
 
 
 def _joints(message: Any) -> tuple[tuple[str, ...], Float[np.ndarray, " joints"]]:
