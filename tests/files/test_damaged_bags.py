@@ -144,6 +144,13 @@ def test_after_a_record_that_makes_no_sense_reading_goes_on_at_the_next_chunk(tm
     assert "reading went on at the next chunk" in loss
 
 
+def test_messages_whose_channel_is_named_in_a_damaged_chunk_are_read(tmp_path, read):
+    content = bytearray(chunked(tmp_path, 5, checked=True))
+    content[mcap_chunks(content)[0] + 200] ^= 0x10
+    bag = read(bytes(content))
+    assert len(bag.messages["/joint_states"]) == 80
+
+
 def test_a_chunk_that_claims_to_be_huge_is_not_inflated(tmp_path, read):
     content = bytearray(chunked(tmp_path, 3))
     struct.pack_into("<Q", content, mcap_chunks(content)[1] + 9 + 16, 2**40)

@@ -11,6 +11,7 @@ import struct
 from binascii import crc32
 from bisect import bisect_right
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import BinaryIO
 
 from boresight.errors import InputError
@@ -46,8 +47,8 @@ def read_mcap(file: BinaryIO, name: str, tape: Tape) -> None:
     size = os.fstat(file.fileno()).st_size
     if file.read(len(MAGIC)) != MAGIC:
         raise InputError(f"{name}: the file does not begin as an MCAP file does")
-    chunks = _chunk_places(file, size)
     scan, place = _Scan(tape, name), len(MAGIC)
+    chunks = _summary(file, size, scan)
     while place < size and not scan.done:
         try:
             place = scan.record(file, place, size)
@@ -167,8 +168,11 @@ def _text(record: memoryview, place: int) -> tuple[str, int]:
     return bytes(record[place + 4 : end]).decode(), end
 
 
-def _chunk_places(file: BinaryIO, size: int) -> list[int]:
-    """Returns where chunks begin by the index at the file's end, in order; none where the end is missing."""
+def _summary(file: BinaryIO, size: int, scan: _Scan) -> list[int]:
+    """Returns where chunks begin by the index at the file's end, in order; none where the end is missing.
+
+    Channels are repeated there, which helps where the chunk that named them first is damaged.
+    """
     footer = size - len(MAGIC) - _FOOTER_LENGTH
     file.seek(max(0, footer))
     end = file.read()
@@ -178,13 +182,14 @@ def _chunk_places(file: BinaryIO, size: int) -> list[int]:
     places: set[int] = set()
     while 0 < at < footer and len(places) < _MOST_CHUNKS:
         file.seek(at)
-        record = file.read(_HEAD.size + 24)
-        if len(record) < _HEAD.size + 24:
+        head = file.read(_HEAD.size)
+        kind, length = _HEAD.unpack(head) if len(head) == _HEAD.size else (0, 0)
+        if kind == 0 or at + length > size:
             break
-        kind, length = _HEAD.unpack_from(record)
-        if kind == 0:
-            break
-        if kind == _CHUNK_INDEX:
-            places.add(struct.unpack_from("<Q", record, _HEAD.size + 16)[0])
+        if kind in (_SCHEMA, _CHANNEL) and length <= _LARGEST_DEFINITION:
+            with suppress(Damage):
+                scan.content(kind, memoryview(file.read(length)))
+        elif kind == _CHUNK_INDEX and length >= 24:
+            places.add(struct.unpack_from("<Q", file.read(24), 16)[0])
         at += _HEAD.size + length
     return sorted(place for place in places if place < size)
