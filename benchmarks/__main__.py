@@ -5,7 +5,7 @@ import importlib
 import json
 import os
 
-NAMES = ("intervals", "robustness", "evolution", "case1", "compensation")
+NAMES = ("intervals", "robustness", "evolution", "case1", "studies", "compensation")
 
 
 def main() -> None:

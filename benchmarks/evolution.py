@@ -21,10 +21,11 @@ import numpy as np
 
 from benchmarks.parallel import on_all_cores
 from benchmarks.report import Report, Table, percent
-from benchmarks.space_arm import Setup, draw, one_plane, spoiled, three_planes
+from benchmarks.space_arm import Setup, draw, one_plane, three_planes
 from boresight.calibration.robust import fit, lower
 from boresight.calibration.solve import SAME_OPTIMUM
 from boresight.search import DifferentialEvolution, evolve
+from boresight.synthetic import spoiled
 
 UNIT = {"angle": 0.01, "length": 0.003, "number": 0.01}
 """Half-widths of the initial errors of size 1 [rad, m, 1]."""

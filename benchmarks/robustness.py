@@ -18,10 +18,11 @@ import numpy as np
 
 from benchmarks.parallel import on_all_cores
 from benchmarks.report import Figure, Report, Table, percent, spread
-from benchmarks.space_arm import Setup, draw, one_plane, pose_error, spoiled, three_planes
+from benchmarks.space_arm import Setup, draw, one_plane, pose_error, three_planes
 from boresight.calibration import calibrate
 from boresight.calibration.robust import fit, refine
 from boresight.calibration.solve import Solver, solve
+from boresight.synthetic import spoiled
 
 SETUPS = (one_plane(100), three_planes(100), one_plane(35))
 SHARES = (0.08, 0.15, 0.25)

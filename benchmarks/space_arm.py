@@ -25,9 +25,6 @@ PLANES = {
 WITHIN = {"angle": 0.025, "length": 0.010, "number": 0.02}
 """Half-widths of the initial errors [rad, m, 1], those of the examples."""
 
-GROSS_M = (0.02, 0.4)
-"""Smallest and largest gross error of a reading [m]."""
-
 
 @dataclass(frozen=True)
 class Setup:
@@ -119,19 +116,6 @@ def draw(kind: Setup, seed: int) -> Drawn:
     readings = simulated_readings(truth, joints, target, seed)
     x = np.array([truth.values[f.parameter] - cell.values[f.parameter] for f in kind.freedoms])
     return Drawn(truth, x, Problem(cell, readings, kind.freedoms), readings.values - truth.predict(joints, target))
-
-
-def spoiled(readings: Readings, share: float, seed: int) -> tuple[Readings, np.ndarray]:
-    """Returns readings of which a share is grossly wrong, and which those are."""
-    random = np.random.Generator(np.random.Philox(np.random.SeedSequence((seed, 77))))
-    rows = random.choice(len(readings), round(share * len(readings)), replace=False)
-    size = random.uniform(*GROSS_M, len(rows)) * random.choice((-1.0, 1.0), len(rows))
-    values = readings.values.copy()
-    shorter = values[rows, 0] + size
-    values[rows, 0] = np.where(shorter > 0.0, shorter, values[rows, 0] + np.abs(size))
-    planted = np.zeros(len(readings), dtype=bool)
-    planted[rows] = True
-    return replace(readings, values=values), planted
 
 
 def pose_error(truth: Cell, found: Cell, configurations: int = 100) -> float:

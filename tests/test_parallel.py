@@ -42,3 +42,34 @@ def test_workers_use_one_thread_each_and_the_parent_is_left_alone(monkeypatch):
 def test_a_task_that_fails_says_so():
     with ThreadPoolExecutor(1) as pool, pytest.raises(ValueError, match="no 3"):
         in_order(pool, refuse, [3])
+
+
+def test_a_task_is_handed_out_again_as_often_as_asked():
+    tries = []
+
+    def flaky(number):
+        tries.append(number)
+        if tries.count(number) < 3:
+            raise OSError("gone")
+        return number
+
+    with ThreadPoolExecutor(1) as pool:
+        assert dict(completed(pool, flaky, [7, 8], retries=2)) == {0: 7, 1: 8}
+    assert sorted(tries) == [7, 7, 7, 8, 8, 8]
+    tries.clear()
+    with ThreadPoolExecutor(1) as pool, pytest.raises(OSError, match="gone"):
+        list(completed(pool, flaky, [7], retries=1))
+
+
+def test_tasks_are_taken_as_they_are_handed_out():
+    taken = []
+
+    def tasks():
+        for number in range(20):
+            taken.append(number)
+            yield number
+
+    with ThreadPoolExecutor(1) as pool:
+        for place, _ in completed(pool, square, tasks(), ahead=2):
+            assert len(taken) <= place + 4
+    assert len(taken) == 20

@@ -33,7 +33,10 @@ _HOME = {
     "load_campaign": "boresight.files",
     "load_result": "boresight.files",
     "load_robot": "boresight.files",
+    "reproduce": "boresight.reproduction",
+    "load_study": "boresight.files",
     "simulate": "boresight.calibration",
+    "study": "boresight.studies",
     "write_result": "boresight.report",
 }
 
@@ -56,8 +59,11 @@ if TYPE_CHECKING:
     from boresight.files import load_campaign as load_campaign
     from boresight.files import load_result as load_result
     from boresight.files import load_robot as load_robot
+    from boresight.files import load_study as load_study
     from boresight.report import write_result as write_result
+    from boresight.reproduction import reproduce as reproduce
     from boresight.sensing import Cell as Cell
+    from boresight.studies import study as study
 
 
 def __getattr__(name: str) -> Any:

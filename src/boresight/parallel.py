@@ -8,8 +8,10 @@ from __future__ import annotations
 import contextlib
 import multiprocessing
 import os
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+import signal
+import threading
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
 from typing import TypeVar
 
 Task = TypeVar("Task")
@@ -32,9 +34,11 @@ def worker_count(asked: int | None = None) -> int:
 def local_workers(count: int | None = None) -> Iterator[Executor]:
     """Yields worker processes of this machine, one thread each, and cancels what is left when it is over.
 
-    They are spawned, not forked: compiled code and threads of the parent do not survive a fork.
+    They are spawned, not forked: compiled code and threads of the parent do not survive a fork. They end with their
+    parent even where that is killed, and leave Ctrl-C to it.
     """
-    pool = ProcessPoolExecutor(worker_count(count), mp_context=multiprocessing.get_context("spawn"))
+    spawning = multiprocessing.get_context("spawn")
+    pool = ProcessPoolExecutor(worker_count(count), mp_context=spawning, initializer=_begin_worker)
     try:
         yield pool
     finally:
@@ -42,29 +46,35 @@ def local_workers(count: int | None = None) -> Iterator[Executor]:
 
 
 def completed(
-    executor: Executor, function: Callable[[Task], Value], tasks: Sequence[Task], ahead: int = 0
+    executor: Executor, function: Callable[[Task], Value], tasks: Iterable[Task], ahead: int = 0, retries: int = 0
 ) -> Iterator[tuple[int, Value]]:
     """Yields the place of a task and its value, as they come.
 
     Args:
         executor: who works.
         function: of one task, importable by a worker.
-        tasks: each with its own seed.
+        tasks: each with its own seed; taken as they are handed out.
         ahead: most tasks handed out at a time; enough for this machine's cores by default.
+        retries: how often a task that failed is handed out again: on a cluster, workers come and go. A broken
+            pool of processes takes no more tasks, and ends it.
     """
     most = ahead or worker_count() * (1 + AHEAD)
-    waiting: dict[Future[Value], int] = {}
+    waiting: dict[Future[Value], tuple[int, Task, int]] = {}
     left = iter(enumerate(tasks))
     with _one_thread_each():
         try:
             while True:
                 while len(waiting) < most and (one := next(left, None)) is not None:
-                    waiting[executor.submit(function, one[1])] = one[0]
+                    waiting[executor.submit(function, one[1])] = (*one, retries)
                 if not waiting:
                     return
                 done, _ = wait(waiting, return_when=FIRST_COMPLETED)
                 for future in done:
-                    yield waiting.pop(future), future.result()
+                    place, task, more = waiting.pop(future)
+                    if more and future.exception() and not isinstance(future.exception(), BrokenExecutor):
+                        waiting[executor.submit(function, task)] = (place, task, more - 1)
+                    else:
+                        yield place, future.result()
         finally:
             for future in waiting:
                 future.cancel()
@@ -74,6 +84,19 @@ def in_order(executor: Executor, function: Callable[[Task], Value], tasks: Seque
     """Returns the values of all tasks, in their order."""
     found = dict(completed(executor, function, tasks))
     return [found[place] for place in range(len(tasks))]
+
+
+def _begin_worker() -> None:
+    """Leaves Ctrl-C to the parent, and ends when that is gone: a killed parent tells its workers nothing."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
+
+
+def _end_with(parent: multiprocessing.process.BaseProcess) -> None:
+    parent.join()
+    os._exit(1)
 
 
 @contextlib.contextmanager

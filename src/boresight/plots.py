@@ -9,7 +9,9 @@ Figures are made without pyplot, so nothing is kept globally and no window syste
 
 from __future__ import annotations
 
+import contextlib
 import os
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,6 +51,15 @@ _LOOK: Any = {
 }
 
 
+@contextlib.contextmanager
+def look() -> Iterator[None]:
+    """Has everything that is drawn meanwhile take the house's look: titles and legends take it when they are made."""
+    import matplotlib
+
+    with matplotlib.rc_context(_LOOK):
+        yield
+
+
 def panels(rows: int = 1, columns: int = 1, panel: tuple[float, float] = PANEL) -> tuple[Figure, np.ndarray]:
     """Returns a figure in the house's look and its (rows, columns) axes.
 
@@ -57,10 +68,9 @@ def panels(rows: int = 1, columns: int = 1, panel: tuple[float, float] = PANEL) 
         columns: of panels.
         panel: width and height of each [inch].
     """
-    import matplotlib
     from matplotlib.figure import Figure
 
-    with matplotlib.rc_context(_LOOK):
+    with look():
         figure = Figure(figsize=(panel[0] * columns, panel[1] * rows), layout="constrained")
         axes = figure.subplots(rows, columns, squeeze=False)
     for each in axes.flat:
@@ -75,10 +85,8 @@ def save(figure: Figure, stem: Path) -> tuple[Path, Path]:
         figure: the figure.
         stem: path without its ending; its folder exists.
     """
-    import matplotlib
-
     written = []
-    with matplotlib.rc_context(_LOOK):
+    with look():
         for ending, metadata in (("png", {"Software": None}), ("svg", {"Date": None})):
             path = stem.with_name(f"{stem.name}.{ending}")
             unfinished = stem.with_name(f".{stem.name}.{os.getpid()}.{ending}")

@@ -97,9 +97,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
             covariance,
             (readings if campaign.validation is None else campaign.validation).joints,
         ),
-        in_workspace=pose_uncertainty(
-            identified, problem.names, covariance, spread_configurations(identified, WORKSPACE_CONFIGURATIONS)
-        ),
+        in_workspace=in_workspace,
         set_aside=campaign.set_aside,
         warnings=campaign.warnings + _warnings(solution.fit),
         notes=campaign.notes + left_out_in_words(left_out(campaign, nominal, freedoms)),

@@ -13,6 +13,7 @@ from boresight.inference import posterior_covariance
 from boresight.search import Box
 from boresight.sensing import Cell, Readings
 from boresight.sensing.compiled import CompiledCost, compile_program, compile_rows
+from boresight.sensing.linear import CompiledModel
 
 MISSED_M = 10.0
 """Residual [m] of a beam that looks away from its plane, and of zero slope: worse than any hit, finite."""
@@ -69,6 +70,11 @@ class Problem:
         return [self.cell.index[name] for name in self.names]
 
     @cached_property
+    def model(self) -> CompiledModel:
+        """The readings as a function of the free parameters."""
+        return CompiledModel(self.cell, self.readings, self.names)
+
+    @cached_property
     def prior_std(self) -> Float[np.ndarray, "parameters"]:
         """Prior standard deviations, infinite where nothing is believed."""
         return np.array([np.inf if f.prior_std is None else f.prior_std for f in self.freedoms])
@@ -111,8 +117,7 @@ class Problem:
 
     def errors(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels"]:
         """Returns predicted minus measured values [m]; NaN where a beam misses."""
-        values = self.cell.predict(self.readings.joints, self.readings.target, self.corrections(x))
-        return values - self.readings.values
+        return self.model.predict(x) - self.readings.values
 
     def residual(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "residuals"]:
         """Returns errors over their standard deviations, then corrections over theirs (MAP)."""
@@ -154,8 +159,7 @@ class Problem:
         return CompiledCost(program, compile_rows(self.cell, self.readings, weight))
 
     def _slopes(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels parameters"]:
-        _, full = self.cell.linearise(self.readings.joints, self.readings.target, self.corrections(x))
-        return np.nan_to_num(full[:, :, self.columns], nan=0.0)
+        return self.model.linearise(x)[1]
 
     @cached_property
     def _root_weight(self) -> Float[np.ndarray, "rows channels"]:

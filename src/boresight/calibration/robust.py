@@ -158,13 +158,19 @@ def _settled(
     """Returns the fit once the same rows stay, from a search that may have begun."""
     began, before = time.perf_counter(), search.seconds
     evaluations = 0 if search.seconds == 0.0 else search.evaluations
-    ratio = np.zeros(len(problem.readings))
+    ratio, met = np.zeros(len(problem.readings)), set()
     for round_ in range(rounds):
         soft = move and round_ < soft_rounds
         weighed, ratio = _weighed(problem, search.best, soft=soft)
         if weighed is None and (evaluations or not move):
             break
         problem = weighed or problem
+        if not move:
+            # Where nothing moves, what came once comes again: rows that go and come back would do so to the last round.
+            state = (problem.row_weight.tobytes(), problem.model_std)
+            if state in met:
+                break
+            met.add(state)
         if move:
             still_soft = soft and bool(np.any((problem.row_weight > 0.0) & (problem.row_weight < 1.0)))
             search = refine(problem, search.best, ROUGH if still_soft else THOROUGH)

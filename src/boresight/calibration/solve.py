@@ -87,11 +87,11 @@ class Solution:
 def solve(problem: Problem, solver: Solver, on_progress: Progress | None = None) -> Solution:
     """Returns the best fit that the solver finds; of two optima, the lower.
 
-    Least squares from the nominal model always runs first: it takes milliseconds and shows whether evolution was
-    needed.
+    Unless evolution is asked for alone, least squares from the nominal model runs too: it takes milliseconds and
+    shows whether evolution was needed.
     """
-    direct = fit(problem, np.zeros(len(problem.names)))
     if solver.name == "least-squares":
+        direct = fit(problem, np.zeros(len(problem.names)))
         stage = _stage("least squares from the nominal model", direct, direct)
         return Solution(direct, (stage,), np.empty((0, 2)), stage, True)
     problem.robust_cost.load(solver.evolution, problem.box)
@@ -101,7 +101,7 @@ def solve(problem: Problem, solver: Solver, on_progress: Progress | None = None)
     if solver.name == "evolution":
         found = fit(problem, evolved.best, move=False)
         return Solution(found, (_evolution(found, evolved),), evolved.history, None, None)
-    polished = fit(problem, evolved.best)
+    direct, polished = fit(problem, np.zeros(len(problem.names))), fit(problem, evolved.best)
     before, after = (_compared(found, (polished, direct)) for found in (direct, polished))
     best = direct if before < (1.0 - LOWER) * after else polished
     stages = [_evolution(best, evolved), _stage("least squares from evolution's best", best, polished)]

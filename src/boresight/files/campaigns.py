@@ -12,6 +12,7 @@ from boresight.calibration.campaign import Campaign, Freedom
 from boresight.errors import InputError, did_you_mean
 from boresight.files.bag_observations import read_bag_observations
 from boresight.files.bags.storages import is_bag
+from boresight.files.composing import KeyPath
 from boresight.files.documents import Document, read_document
 from boresight.files.explaining import validated
 from boresight.files.observations import Observations, read_observations
@@ -43,8 +44,8 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
     entry = validated(document, CampaignEntry)
     problems = Problems()
     inputs = {document.path.name: document.sha256}
-    cell = _cell(document, entry, inputs, problems)
-    choice = _Choice.of(document, entry, cell, problems)
+    cell = cell_of(document, entry, inputs, problems)
+    choice = Choice.of(document, entry, cell, problems)
     data: dict[str, Observations] = {}
     for key, named in (("observations", entry.observations), ("validation", entry.validation)):
         if named is not None:
@@ -69,7 +70,13 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
     )
 
 
-def _cell(document: Document, entry: CampaignEntry, inputs: dict[str, str], problems: Problems) -> Cell:
+def cell_of(
+    document: Document,
+    entry: CampaignEntry,
+    inputs: dict[str, str],
+    problems: Problems,
+    robot_at: KeyPath = ("robot",),
+) -> Cell:
     """Returns the nominal cell; without an arm nothing else can be judged, so its faults are raised here."""
     units = entry.units.value
     targets: dict[str, Plane] = {}
@@ -88,7 +95,7 @@ def _cell(document: Document, entry: CampaignEntry, inputs: dict[str, str], prob
         )
     arm = None
     with problems.gathered():
-        arm = _arm(document, entry, inputs)
+        arm = _arm(document, entry, inputs, robot_at)
     for name in sorted(set(arm.joint_names) & set(targets)) if arm else ():
         problems.add(f"{document.at(('targets', name))}a joint is called {name} too; expected another name")
     problems.raise_if_any()
@@ -103,8 +110,8 @@ def _observations(document: Document, key: str, named: DataEntry, cell: Cell, un
     return read_observations(path, cell=cell, units=units, name=named.name, named_by=place)
 
 
-def _arm(document: Document, entry: CampaignEntry, inputs: dict[str, str]) -> Arm:
-    name, place = entry.robot.file, document.at(("robot",))
+def _arm(document: Document, entry: CampaignEntry, inputs: dict[str, str], robot_at: KeyPath) -> Arm:
+    name, place = entry.robot.file, document.at(robot_at)
     if name is not None:
         refuse_urdf(name, place)
         robot = read_document(document.path.parent / name, name, place)
@@ -138,7 +145,7 @@ def _same_data(entry: CampaignEntry, data: dict[str, Observations]) -> list[str]
 
 
 @dataclass(frozen=True, slots=True)
-class _Choice:
+class Choice:
     """What is estimated and what is not, with patterns written out."""
 
     freedoms: tuple[Freedom, ...] | None
@@ -146,7 +153,7 @@ class _Choice:
     notes: tuple[str, ...]
 
     @classmethod
-    def of(cls, document: Document, entry: CampaignEntry, cell: Cell, problems: Problems) -> _Choice:
+    def of(cls, document: Document, entry: CampaignEntry, cell: Cell, problems: Problems) -> Choice:
         """Returns the choice that `estimate` and `fixed` state."""
         matcher, units = Matcher(cell), entry.units.value
         quantity = {parameter.name: parameter.quantity for parameter in cell.parameters}

@@ -154,7 +154,8 @@ class RobotChoice(Entry):
         return self
 
 
-def _robot_choice(value: Any) -> Any:
+def robot_choice(value: Any) -> Any:
+    """Returns the block that a bare file name stands for."""
     if not isinstance(value, str | dict):
         raise expected("the name of a robot.yaml, or {catalogue: NAME}")
     return {"file": value} if isinstance(value, str) else value
@@ -237,7 +238,7 @@ class FreedomEntry(Entry):
 class CampaignEntry(Entry):
     """campaign.yaml."""
 
-    robot: Annotated[RobotChoice, BeforeValidator(_robot_choice)] = Field(
+    robot: Annotated[RobotChoice, BeforeValidator(robot_choice)] = Field(
         description="the name of a robot.yaml, or {catalogue: NAME}"
     )
     units: UnitsEntry = UnitsEntry()

@@ -35,7 +35,7 @@ def compile_program(
     segments, prismatic = _segments(cell.chain)
     kept = [[m for m in segment if m.value != 0.0 or m.parameter in place] for segment in segments]
     motions = [motion for segment in kept for motion in segment]
-    planes = _planes(cell)
+    planes = carried_planes(cell)
     return Program(
         segment_start=np.cumsum([0] + [len(segment) for segment in kept]),
         motion_kind=np.array([TURN if m.turns else SHIFT for m in motions], dtype=np.int64),
@@ -86,8 +86,8 @@ def _segments(chain: Chain) -> tuple[list[list[Motion]], list[bool]]:
     return segments, prismatic
 
 
-def _planes(cell: Cell) -> list[tuple[str, Plane]]:
-    """The planes that are carried: the targets, or the planes the sensor itself is read against."""
+def carried_planes(cell: Cell) -> list[tuple[str, Plane]]:
+    """Returns the planes that are carried and their names: the targets, or those the sensor itself is read against."""
     if cell.sensor.needs_target:
         return list(cell.targets.items())
     return [("", readout.plane) for readout in cell.sensor.readouts if readout.plane is not None]

@@ -35,6 +35,8 @@ def draw_configurations(
 ) -> tuple[Float[np.ndarray, "rows joints"], Int[np.ndarray, "rows"]]:
     """Returns configurations within the joints' limits in which every given cell sees its target.
 
+    The first configurations of a target are the same however many rows and targets there are.
+
     Args:
         cells: the nominal cell and the true one, say; the first decides limits and targets.
         rows: how many; they take the targets in turn.
@@ -44,7 +46,6 @@ def draw_configurations(
     Raises:
         InputError: hardly any configuration within the limits sees a target.
     """
-    random = _random(seed, _CONFIGURATIONS, part)
     cell = cells[0]
     limits = np.clip(cell.arm.limits, -np.pi, np.pi)
     slides = [joint.type == "prismatic" for joint in cell.arm.joints]
@@ -54,6 +55,7 @@ def draw_configurations(
     target = np.arange(rows) % len(names)
     for place, name in enumerate(names):
         wanted = np.flatnonzero(target == place)
+        random = _random(seed, _CONFIGURATIONS, part, place)
         found = np.empty((0, len(limits)))
         for _ in range(_TRIES):
             if len(found) >= len(wanted):
