@@ -2,8 +2,10 @@
 
 import random
 import shutil
+import struct
 import sys
 
+import lz4.frame
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -89,23 +91,35 @@ def test_a_bag_in_several_files_is_one(tmp_path, storage):
     assert bag.losses == ()
 
 
-def test_chunks_compressed_by_lz4_are_read(tmp_path):
-    """rosbags writes none, but ROS's recorder does: a chunk is swapped for its lz4 form."""
-    import struct
-
-    import lz4.frame
-
-    path = script().write(tmp_path / "run") / "run.mcap"
-    content = path.read_bytes()
+def pieces(content):
+    """The beginning of an uncompressed MCAP up to its only chunk, the chunk's head, and the records in it."""
     start = content.index(b"\x06", 8 + 9)
     (length,) = struct.unpack_from("<Q", content, start + 1)
     chunk = content[start + 9 : start + 9 + length]
-    head, inner = chunk[:28], chunk[40:]
-    packed = lz4.frame.compress(inner)
+    return content[:start], chunk[:28], chunk[40:]
+
+
+def test_chunks_compressed_by_lz4_are_read(tmp_path):
+    """rosbags writes none, but ROS's recorder does: a chunk is swapped for its lz4 form."""
+    path = script().write(tmp_path / "run") / "run.mcap"
+    beginning, head, records = pieces(path.read_bytes())
+    packed = lz4.frame.compress(records)
     record = head + struct.pack("<I", 3) + b"lz4" + struct.pack("<Q", len(packed)) + packed
-    whole = content[:start] + b"\x06" + struct.pack("<Q", len(record)) + record + b"\x0f" + struct.pack("<QI", 4, 0)
-    path.write_bytes(whole)
+    path.write_bytes(beginning + b"\x06" + struct.pack("<Q", len(record)) + record + b"\x0f" + struct.pack("<QI", 4, 0))
     check(read_bag(path, "run.mcap"))
+
+
+def test_a_file_without_chunks_is_read_and_so_is_the_beginning_of_one(tmp_path):
+    path = script().write(tmp_path / "run") / "run.mcap"
+    beginning, _, records = pieces(path.read_bytes())
+    path.write_bytes(beginning + records + b"\x0f" + struct.pack("<QI", 4, 0))
+    bag = read_bag(path, "run.mcap")
+    check(bag)
+    assert bag.losses == ()
+    path.write_bytes(beginning + records[:-5])
+    bag = read_bag(path, "run.mcap")
+    assert sum(topic.count for topic in bag.topics.values()) == 122
+    assert bag.losses == ("run.mcap: it ends in the middle of a record; 122 messages were read up to there",)
 
 
 def test_messages_of_humble_whose_range_has_no_variance_are_read(tmp_path):
@@ -231,7 +245,6 @@ def test_what_a_recorder_that_died_left_beside_its_database_is_taken_in(tmp_path
     import sqlite3
 
     path = script().write(tmp_path / "run", "sqlite3") / "run.db3"
-    whole = path.read_bytes()
     writer = sqlite3.connect(path)
     writer.execute("PRAGMA journal_mode = WAL")
     writer.execute("PRAGMA wal_autocheckpoint = 0")
@@ -248,4 +261,3 @@ def test_what_a_recorder_that_died_left_beside_its_database_is_taken_in(tmp_path
     bag = read_bag(left, "left")
     assert bag.topics["/joint_states"].count == 80
     assert {file.name: file.read_bytes() for file in left.iterdir()} == before
-    assert whole

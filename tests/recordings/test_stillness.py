@@ -115,8 +115,7 @@ def test_of_samples_at_one_time_the_last_counts():
     assert found.values[:, 0].tolist() == [4.0, 6.0]
 
 
-@pytest.mark.parametrize("samples", [0, 1, 2])
+@pytest.mark.parametrize("samples", [1, 2])
 def test_hardly_any_samples_are_no_pause(samples):
-    time = np.arange(samples) * 0.01
-    if samples:
-        assert len(still_phases(trajectory(time, np.zeros((samples, 1))), RULES)) == 0
+    time = np.arange(samples) * 10.0
+    assert len(still_phases(trajectory(time, np.zeros((samples, 1))), RULES)) == 0

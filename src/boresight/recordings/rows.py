@@ -138,7 +138,7 @@ def _by_target(
     phases: Float[np.ndarray, "phases 2"], targets: Sequence[tuple[float, str]]
 ) -> list[tuple[float, float, str]]:
     """Returns (start, end, target) of the pieces that phases fall into where the target changes in them."""
-    times = [time for time, _ in targets]
+    times = np.array([time for time, _ in targets])
     pieces = []
     for start, end in phases:
         first, last = np.searchsorted(times, [start, end], side="right")
