@@ -7,14 +7,14 @@ import pytest
 from boresight.calibration import Solver, calibrate
 from boresight.files import load_campaign
 from boresight.files.columns import IGNORED
-from boresight.files.schemas import CampaignEntry, FreedomEntry, JointEntry, RobotEntry
+from boresight.files.schemas import CampaignEntry, DataEntry, FreedomEntry, JointEntry, RobotEntry
 from boresight.report.document import result_document
 
 ROOT = Path(__file__).parents[2]
 TEXT = (ROOT / "docs" / "files.md").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("schema", [RobotEntry, JointEntry, CampaignEntry, FreedomEntry])
+@pytest.mark.parametrize("schema", [RobotEntry, JointEntry, CampaignEntry, DataEntry, FreedomEntry])
 def test_every_key_of_the_input_is_described(schema):
     assert [key for key in schema.model_fields if f"`{key}`" not in TEXT and f".{key}`" not in TEXT] == []
 

@@ -19,6 +19,7 @@ SIMULATED = {
     "space-arm-three-planes": (14.2, 0.070),
     "seven-axis": (13.6, 0.050),
     "urdf-arm": (4.39, 0.060),
+    "ros-bag": (28.7, 0.050),
 }
 
 

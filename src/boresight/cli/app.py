@@ -162,6 +162,67 @@ def compensate(
     )
 
 
+@app.command(name="import")
+def import_(
+    source: Path,
+    *,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    robot: Path | None = None,
+    joints: Annotated[list[str] | None, Parameter(negative="")] = None,
+    range: str | None = None,
+    position: str | None = None,
+    target: str | None = None,
+    targets: str | None = None,
+    time_offset: float = 0.0,
+    still_speed: float = 1e-3,
+    still_time: float = 0.5,
+    settle: float = 0.3,
+    joint_file: Path | None = None,
+    marker: int | None = None,
+    overwrite: Annotated[bool, Parameter(negative="")] = False,
+    json: Annotated[bool, Parameter(negative="")] = False,
+) -> int:
+    """Make an observations.csv, in metres and radians, of a ROS 2 bag, or of FIGAROH's or Leica's CSV.
+
+    Of a bag, every time the arm stands still becomes a row: joints and readings are paired by their time stamps
+    and averaged.
+
+    Args:
+        source: a rosbag2 folder, an .mcap or .db3 file, or a CSV.
+        output: CSV to write; observations.csv in the present folder by default.
+        robot: robot.yaml whose joints become the columns; every joint of the source by default.
+        joints: topic of sensor_msgs/JointState; may be given several times. The only one by default.
+        range: topic of sensor_msgs/Range, or of std_msgs/Float64 or Float32 in metres. The only one by default.
+        position: topic of geometry_msgs/PointStamped, the positions of a tracker, in place of ranges.
+        target: what the ranger pointed at, for the column target.
+        targets: topic of std_msgs/String that names the target from then on; one called target by default.
+        time_offset: seconds to add to the readings' time stamps.
+        still_speed: a joint slower than this [rad/s or m/s] stands still.
+        still_time: seconds that a pause lasts at least, after settling.
+        settle: seconds to leave out at the beginning of a pause.
+        joint_file: CSV of joint readings to pair a Leica export with: row by row, or by its column time.
+        marker: which of several markers of a FIGAROH file.
+        overwrite: replace the output if it is there.
+        json: print a summary as JSON.
+    """
+    from boresight.cli.importing import run_import
+    from boresight.files.topics import Choice
+    from boresight.recordings import Rules
+
+    rules = Rules(still_speed, still_time, settle)
+    choice = Choice(tuple(joints or ()), range, position, target, targets, time_offset, rules)
+    return run_import(
+        source,
+        output,
+        choice,
+        robot=robot,
+        joint_file=joint_file,
+        marker=marker,
+        overwrite=overwrite,
+        as_json=json,
+    )
+
+
 @app.command
 def study(
     study: Path,

@@ -11,6 +11,8 @@ from typing import cast
 from boresight.arm import HARMONICS, SAG, Arm
 from boresight.calibration.campaign import Campaign, Freedom, RobotFile
 from boresight.errors import InputError, did_you_mean
+from boresight.files.bag_observations import read_bag_observations
+from boresight.files.bags.storages import is_bag
 from boresight.files.composing import KeyPath
 from boresight.files.documents import Document, read_document
 from boresight.files.explaining import validated
@@ -18,7 +20,7 @@ from boresight.files.observations import Observations, read_observations
 from boresight.files.patterns import Matcher
 from boresight.files.problems import Problems, listed, shown
 from boresight.files.robots import arm_of, is_urdf
-from boresight.files.schemas import CampaignEntry, FrameEntry
+from boresight.files.schemas import CampaignEntry, DataEntry, FrameEntry
 from boresight.files.urdf import read_urdf
 from boresight.geometry import Frame, Plane
 from boresight.sensing import Cell, LaserRanger, Position, Sensor
@@ -48,14 +50,11 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
     cell = cell_of(document, entry, robot, problems)
     choice = Choice.of(document, entry, cell, problems)
     data: dict[str, Observations] = {}
-    for key, name in (("observations", entry.observations), ("validation", entry.validation)):
-        if name is not None:
+    for key, named in (("observations", entry.observations), ("validation", entry.validation)):
+        if named is not None:
             with problems.gathered():
-                place, units = document.at((key,)), entry.units.value
-                data[key] = read_observations(
-                    document.path.parent / name, cell=cell, units=units, name=name, named_by=place
-                )
-                inputs[name] = data[key].sha256
+                data[key] = _observations(document, key, named, cell, entry.units.value)
+                inputs[named.name] = data[key].sha256
         elif key == "observations" and need_readings:
             problems.add(f"{document.at(())}there are no readings; expected observations: observations.csv")
     problems.raise_if_any()
@@ -72,7 +71,7 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
         unknown=_unknown("base", entry.base) | _unknown("mount", entry.mount),
         set_aside=tuple(row for part in data.values() for row in part.set_aside),
         warnings=(*(warning for part in data.values() for warning in part.warnings), *_same_data(entry, data)),
-        notes=choice.notes + robot.notes,
+        notes=(*choice.notes, *robot.notes, *(note for part in data.values() for note in part.notes)),
         inputs=inputs,
         robot_file=robot.file,
     )
@@ -149,6 +148,13 @@ class RobotOf:
         return chain.arm
 
 
+def _observations(document: Document, key: str, named: DataEntry, cell: Cell, units: Units) -> Observations:
+    path, place = document.path.parent / named.name, document.at((key,))
+    if named.bag is not None or is_bag(path):
+        return read_bag_observations(path, cell=cell, entry=named, named_by=place)
+    return read_observations(path, cell=cell, units=units, name=named.name, named_by=place)
+
+
 def _of_catalogue(wanted: str, place: str) -> Arm:
     from boresight.arm import catalogue  # a table of arms that most campaigns do without
 
@@ -173,7 +179,8 @@ def _unknown(owner: str, entry: FrameEntry) -> frozenset[str]:
 def _same_data(entry: CampaignEntry, data: dict[str, Observations]) -> list[str]:
     if len(data) < 2 or data["observations"].sha256 != data["validation"].sha256:
         return []
-    return [f"{entry.validation}: the readings to validate with are those to calibrate with; they prove nothing"]
+    assert entry.validation is not None
+    return [f"{entry.validation.name}: the readings to validate with are those to calibrate with; they prove nothing"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +11,7 @@ from jaxtyping import Float
 from boresight.calibration.campaign import SetAside
 from boresight.errors import InputError
 from boresight.files.columns import Columns
+from boresight.files.dialects import described, in_house_words
 from boresight.files.problems import Problems, printable
 from boresight.files.schemas import LARGEST, SMALLEST
 from boresight.files.sources import Source, read_source
@@ -31,12 +32,14 @@ class Observations:
         set_aside: the rows that cannot, and why.
         warnings: what looks odd, a sentence each.
         sha256: of the file.
+        notes: choices that were made in reading it, a sentence each.
     """
 
     readings: Readings
     set_aside: tuple[SetAside, ...]
     warnings: tuple[str, ...]
     sha256: str
+    notes: tuple[str, ...] = ()
 
 
 def read_observations(
@@ -57,6 +60,23 @@ def read_observations(
     name = str(path) if name is None else name
     mend = "thin it or split it"
     source = read_source(Path(path), name, kind="a CSV file", limit_mib=LIMIT_MIB, mend=mend, named_by=named_by)
+    ours, translation = in_house_words(source, cell.arm.joints, units)
+    found = observations_of(ours, cell, units)
+    notes = (printable(f"{name}: {described(translation)}"),) if translation else ()
+    return replace(found, sha256=source.sha256, notes=notes)
+
+
+def observations_of(source: Source, cell: Cell, units: Units) -> Observations:
+    """Returns the readings of a CSV file's content, in metres and radians.
+
+    Args:
+        source: the content.
+        cell: the arm, the sensor and the targets that it is about.
+        units: the units it is written in.
+
+    Raises:
+        InputError: not one row of it is usable, or something in it makes no sense.
+    """
     problems = Problems()
     table = read_table(source, cell, units, problems)
     problems.raise_if_any()

@@ -280,6 +280,47 @@ class PlaneEntry(Entry):
     offset: Number = Field(description="the number f of n·x + f = 0, in the length unit")
 
 
+class DataEntry(Entry):
+    """`observations` or `validation`: a bare name stands for {file: it}; a bag may say which topics are meant."""
+
+    file: str | None = None
+    bag: str | None = None
+    joints: Annotated[tuple[str, ...], BeforeValidator(lambda value: _topics(value))] = ()
+    range: str | None = None
+    position: str | None = None
+    target: Name | None = None
+    targets: str | None = None
+    time_offset: Number = 0.0
+    still_speed: Positive = 1e-3
+    still_time: Positive = 0.5
+    settle: Annotated[Number, Field(ge=0)] = 0.3
+
+    @model_validator(mode="after")
+    def _one_source(self) -> DataEntry:
+        if (self.file is None) == (self.bag is None):
+            raise expected("the name of a file, or a block with a bag: {bag: run1, range: /ranger}")
+        return self
+
+    @property
+    def name(self) -> str:
+        """What the user calls it."""
+        return self.file or self.bag or ""
+
+
+def _data_entry(value: Any) -> Any:
+    if not isinstance(value, str | dict):
+        raise expected("the name of a CSV file or of a ROS bag, or a block such as {bag: run1, range: /ranger}")
+    return {"file": value} if isinstance(value, str) else value
+
+
+def _topics(value: Any) -> Any:
+    if isinstance(value, str):
+        return (value,)
+    if not isinstance(value, list) or not all(isinstance(topic, str) for topic in value):
+        raise expected("the name of a topic, or a list of such names")
+    return tuple(value)
+
+
 class FreedomEntry(Entry):
     """One line of `estimate`."""
 
@@ -299,8 +340,8 @@ class CampaignEntry(Entry):
     mount: FrameEntry = FrameEntry()
     base: FrameEntry = FrameEntry()
     targets: dict[Name, PlaneEntry] = {}
-    observations: str | None = None
-    validation: str | None = None
+    observations: Annotated[DataEntry, BeforeValidator(_data_entry)] | None = None
+    validation: Annotated[DataEntry, BeforeValidator(_data_entry)] | None = None
     estimate: list[FreedomEntry] | None = None
     fixed: list[str] = []
     gravity: Gravity = "level"

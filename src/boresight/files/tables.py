@@ -64,7 +64,7 @@ def read_table(source: Source, cell: Cell, units: Units, problems: Problems) -> 
         units: the units it is written in.
         problems: where faults are added.
     """
-    lines = _rows(source)
+    lines = rows_of_cells(source)
     line, header = next(lines, (1, []))
     if not header:
         raise InputError(f"{source.name}: the file is empty; expected a row of column names and then readings")
@@ -105,7 +105,7 @@ def read_table(source: Source, cell: Cell, units: Units, problems: Problems) -> 
     )
 
 
-def _rows(source: Source) -> Iterator[tuple[int, list[str]]]:
+def rows_of_cells(source: Source) -> Iterator[tuple[int, list[str]]]:
     """Yields (line, cells) of every row that is not blank; `#` begins a comment."""
     text = io.TextIOWrapper(io.BytesIO(source.content), encoding="utf-8-sig", newline=None)
     reader = csv.reader((line.partition("#")[0] for line in text), strict=True)

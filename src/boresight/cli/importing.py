@@ -1,0 +1,152 @@
+"""`boresight import`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+from rich.markup import escape
+
+from boresight.cli.consoles import PipedConsole, print_plain
+from boresight.errors import InputError, OutputError
+from boresight.files.bag_observations import remarks_of
+from boresight.files.bags import is_bag
+from boresight.files.dialects import described, in_house_words
+from boresight.files.joint_logs import paired
+from boresight.files.observations import LIMIT_MIB
+from boresight.files.recorded import Recorded, began, read_recorded, rows_csv
+from boresight.files.robots import load_robot
+from boresight.files.sources import read_source
+from boresight.files.tables import rows_of_cells
+from boresight.files.topics import Choice
+from boresight.files.writing import write_atomically
+from boresight.units import Units, in_millimetres
+
+
+def run_import(
+    path: Path,
+    output: Path | None,
+    choice: Choice,
+    *,
+    robot: Path | None,
+    joint_file: Path | None,
+    marker: int | None,
+    overwrite: bool,
+    as_json: bool,
+) -> int:
+    """Returns the exit code of an import, its observations written and what was found shown."""
+    _check(choice)
+    target = output or Path("observations.csv")
+    if target.exists() and not overwrite:
+        raise OutputError(f"{target}: is there already; name another file with -o, or say --overwrite")
+    if target.exists() and path.exists() and target.samefile(path):
+        raise OutputError(f"{target}: is the file to import itself; name another file with -o")
+    if is_bag(path) or path.name == "metadata.yaml":
+        summary, text = _bag(path, choice, robot)
+    else:
+        summary, text = _table(path, robot, joint_file, marker)
+    write_atomically(target, text)
+    summary["output"] = str(target)
+    if as_json:
+        print_plain(json.dumps(summary, indent=2, default=float) + "\n")
+    else:
+        _show(PipedConsole(), summary)
+    return 0
+
+
+def _check(choice: Choice) -> None:
+    rules = choice.rules
+    problems = [
+        f"{option}: expected {expected}, got {given:g}"
+        for option, given, expected, good in (
+            ("--time-offset", choice.time_offset, "seconds", abs(choice.time_offset) <= 1e9),
+            ("--still-speed", rules.still_speed, "a speed above 0", 0.0 < rules.still_speed <= 1e3),
+            ("--still-time", rules.still_time, "seconds above 0", 0.0 < rules.still_time <= 1e6),
+            ("--settle", rules.settle, "seconds, 0 or more", 0.0 <= rules.settle <= 1e6),
+        )
+        if not good
+    ]
+    if problems:
+        raise InputError(problems)
+
+
+def _bag(path: Path, choice: Choice, robot: Path | None) -> tuple[dict[str, object], str]:
+    names = load_robot(robot).joint_names if robot else None
+    recorded = read_recorded(path, str(path), choice, names)
+    return _summary(recorded), rows_csv(recorded)
+
+
+def _summary(recorded: Recorded) -> dict[str, object]:
+    """Returns what was found in a bag, as plain values."""
+    rows = recorded.rows
+    return {
+        "source": recorded.bag.name,
+        "rows": len(rows),
+        "joints": recorded.joint_names,
+        "began": began(recorded.start),
+        "topics": {t.name: {"type": t.type, "messages": t.count} for t in recorded.bag.topics.values()},
+        "used": recorded.used,
+        "messages": recorded.counts,
+        "set_aside": recorded.empty,
+        "outlying": rows.outlying,
+        "phases": len(rows) + len(rows.skipped),
+        "without_a_row": [{"from": s.start, "to": s.end, "reason": s.reason} for s in rows.skipped],
+        "repeats": {"median": float(np.median(rows.repeats)), "min": int(rows.repeats.min())},
+        "scatter_m": rows.scatter.tolist(),
+        "std_m": {"median": float(np.median(rows.std)), "max": float(rows.std.max())},
+        "notes": list(remarks_of(recorded)),
+        "warnings": list(recorded.bag.losses),
+    }
+
+
+def _table(
+    path: Path, robot: Path | None, joint_file: Path | None, marker: int | None
+) -> tuple[dict[str, object], str]:
+    name, mend = str(path), "thin it or split it"
+    arm = load_robot(robot) if robot else None
+    source = read_source(path, name, kind="a CSV file or a ROS bag", limit_mib=LIMIT_MIB, mend=mend)
+    ours, translation = in_house_words(source, arm.joints if arm else (), Units(), marker)
+    if translation is None:
+        raise InputError(
+            f"{name}: the columns are neither FIGAROH's (x1, y1, z1, joints) nor Leica's (X [mm], Y [mm], Z [mm]), and "
+            "this is no ROS bag; a file with the columns of docs/files.md needs no import"
+        )
+    notes, warnings = [described(translation)], []
+    count = sum(1 for _ in rows_of_cells(ours)) - 1
+    if joint_file is not None:
+        log = read_source(
+            joint_file, str(joint_file), kind="a CSV file of joint readings", limit_mib=LIMIT_MIB, mend=mend
+        )
+        pairs = paired(ours, log, arm.joint_names if arm else None)
+        ours, count = pairs.source, pairs.count
+        notes.append(f"Joints and measurements were paired {'by time' if pairs.by_time else 'row by row'}.")
+        lines = ", ".join(map(str, pairs.left_out[:6])) + (" and others" if len(pairs.left_out) > 6 else "")
+        if pairs.left_out:
+            warnings.append(f"{name}: {len(pairs.left_out)} rows are at times without joints (lines {lines})")
+    elif translation.dialect == "Leica" and not (arm and set(arm.joint_names) <= set(translation.header)):
+        raise InputError(
+            f"{name}: a tracker's export has no joints; name their file: --joint-file joints.csv, a column a joint, "
+            "and a row for each of its rows or a column time"
+        )
+    summary: dict[str, object] = {"source": name, "dialect": translation.dialect, "rows": count}
+    return summary | {"notes": notes, "warnings": warnings}, ours.content.decode()
+
+
+def _show(console: Console, summary: dict) -> None:
+    """Prints what was found."""
+    rows = summary["rows"]
+    said = [f"[bold]{rows}[/] row{'s' if rows != 1 else ''} out of {escape(summary['source'])}."]
+    if "used" in summary:
+        counts = summary["messages"]
+        used = ", ".join(f"{key} {topic}" for key, topic in summary["used"].items())
+        scatter, std = max(summary["scatter_m"]), summary["std_m"]["median"]
+        said += [
+            f"  {counts['joint_states']} joint states, {counts['readings']} readings: {escape(used)}.",
+            f"  One reading scatters by {in_millimetres(scatter)}; a row is known to {in_millimetres(std)} (median).",
+        ]
+    said += [f"  {escape(note)}" for note in summary["notes"]]
+    said += [f"[yellow]Warning:[/] {escape(warning)}" for warning in summary["warnings"]]
+    for line in (*said, f"Files: {escape(summary['output'])}"):
+        console.print(line, soft_wrap=True, highlight=False)

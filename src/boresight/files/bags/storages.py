@@ -1,0 +1,102 @@
+"""Which files a bag consists of, and how each is read."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from boresight.errors import InputError
+from boresight.files.bags.database import MAGIC as SQLITE_MAGIC
+from boresight.files.bags.database import read_database
+from boresight.files.bags.inflating import ZSTD_MAGIC, inflate_file
+from boresight.files.bags.mcap import MAGIC as MCAP_MAGIC
+from boresight.files.bags.mcap import read_mcap
+from boresight.files.bags.tape import Tape
+from boresight.files.documents import read_document
+
+SUFFIXES = (".mcap", ".db3", ".mcap.zstd", ".db3.zstd")
+LARGEST_INFLATED = 64 * 2**30
+_METADATA = "metadata.yaml"
+
+
+def is_bag(path: Path) -> bool:
+    """Whether a path looks like a bag rather than a CSV file: a folder, or a file with a bag's ending."""
+    return path.is_dir() or path.name.lower().endswith(SUFFIXES)
+
+
+def files_of(path: Path, name: str, tape: Tape) -> list[Path]:
+    """Returns the files of a bag in the order of recording; a loss is noted for those that are missing.
+
+    Raises:
+        InputError: there is no bag.
+    """
+    if path.name == _METADATA:
+        path = path.parent
+    if path.is_file():
+        return [path]
+    if not path.is_dir():
+        raise InputError(f"{name}: there is no such file or folder; expected a rosbag2 folder or an .mcap file")
+    found = sorted((p for p in path.iterdir() if p.name.lower().endswith(SUFFIXES) and p.is_file()), key=_by_number)
+    if not found:
+        raise InputError(
+            f"{name}: there is no {' or '.join(SUFFIXES[:2])} file in this folder; expected a rosbag2 folder"
+        )
+    there = {file.name for file in found}
+    for missing in [file for file in _listed(path, name, tape) if file not in there]:
+        tape.lose(f"{name}: {_METADATA} lists {missing}, which is not there")
+    return found
+
+
+def read_storage(path: Path, name: str, tape: Tape) -> None:
+    """Returns nothing; the tape gets what one file of a bag holds. Its first bytes tell its kind."""
+    with open(path, "rb") as file:
+        beginning = file.read(16)
+        file.seek(0)
+        if beginning.startswith(MCAP_MAGIC):
+            return read_mcap(file, name, tape)
+        if beginning.startswith(SQLITE_MAGIC):
+            return read_database(path, name, tape)
+        if beginning.startswith(ZSTD_MAGIC):
+            with TemporaryDirectory() as folder:
+                inflated = Path(folder) / path.stem
+                with open(inflated, "wb") as target:
+                    if not inflate_file(file, target, LARGEST_INFLATED):
+                        tape.lose(f"{name}: the compressed file breaks off or is damaged; what came before was read")
+                with open(inflated, "rb") as again:
+                    if again.read(4) == ZSTD_MAGIC:
+                        raise InputError(f"{name}: the file is compressed twice")
+                return read_storage(inflated, name, tape)
+    kind = "is empty" if not beginning else "is neither MCAP nor SQLite"
+    raise InputError(f"{name}: the file {kind}; expected a ROS 2 bag, whose files end in {' or '.join(SUFFIXES[:2])}")
+
+
+def digest(files: list[Path]) -> str:
+    """Returns the SHA-256 of a bag: of its file, or of its files' digests one after the other."""
+    each = []
+    for path in files:
+        with open(path, "rb") as file:
+            each.append(hashlib.file_digest(file, "sha256").hexdigest())
+    return each[0] if len(each) == 1 else hashlib.sha256("".join(each).encode()).hexdigest()
+
+
+def _by_number(path: Path) -> list[Any]:
+    """Sorts run_10.mcap behind run_9.mcap."""
+    return [(0, int(part), "") if part.isdigit() else (1, 0, part) for part in re.split(r"(\d+)", path.name)]
+
+
+def _listed(folder: Path, name: str, tape: Tape) -> list[str]:
+    """Returns the names of the files that a bag's metadata lists; none where it cannot be read."""
+    path = folder / _METADATA
+    if not path.exists():
+        tape.lose(f"{name}: there is no {_METADATA}, as where a recording was killed; the files were read without it")
+        return []
+    try:
+        data = read_document(path, f"{name}/{_METADATA}").data
+        listed = data["rosbag2_bagfile_information"]["relative_file_paths"]
+        return [Path(str(file)).name for file in listed]
+    except (InputError, KeyError, TypeError):
+        tape.lose(f"{name}: {_METADATA} makes no sense; the files were read without it")
+        return []

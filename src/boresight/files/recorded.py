@@ -1,0 +1,216 @@
+"""Observations out of a ROS bag: topics chosen, joints and readings paired, still phases made rows."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+import numpy as np
+
+from boresight.errors import InputError, did_you_mean
+from boresight.files.bags import Bag, read_bag
+from boresight.files.clocks import Clock, clock_of
+from boresight.files.problems import listed, printable, shown
+from boresight.files.schemas import LARGEST, SMALLEST
+from boresight.files.topics import CHANNELS, Choice, Topics, topics_of
+from boresight.recordings import Rows, Rules, Signal, Trajectory, rows_of
+
+_FINEST = 1e-6
+"""Rounding to less than this [m] is that of floating point, and says nothing of the sensor."""
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """The rows of a bag, and how they came to be.
+
+    Attributes:
+        bag: what was read.
+        joint_names: the columns of joints.
+        channels: the columns of values.
+        rows: the rows; times from `start` on.
+        start: the first message's time [s], as its clock has it.
+        used: the topics used, by what for.
+        counts: messages used: `joint_states` and `readings`.
+        empty: how many readings hold no value, by reason.
+        remarks: choices that were made, a sentence each.
+    """
+
+    bag: Bag
+    joint_names: tuple[str, ...]
+    channels: tuple[str, ...]
+    rows: Rows
+    start: float
+    used: dict[str, str]
+    counts: dict[str, int]
+    empty: dict[str, int]
+    remarks: tuple[str, ...]
+
+    @property
+    def scatters(self) -> bool:
+        """Whether readings of a phase differ, or are rounded to steps, so that a standard deviation can be told."""
+        rows = self.rows
+        return bool((rows.std >= SMALLEST).all() and ((rows.scatter > 0.0).any() or (rows.std >= _FINEST).all()))
+
+
+def read_recorded(
+    path: Path, name: str, choice: Choice, joint_names: Sequence[str] | None = None, kind: str | None = None
+) -> Recorded:
+    """Returns the rows of a bag, in metres and radians.
+
+    Args:
+        path: of the bag.
+        name: what the user calls it.
+        choice: which topics, and what counts as still.
+        joint_names: the arm's joints; those of the bag, in its order, by default.
+        kind: `range` or `position`; whichever the bag holds by default.
+
+    Raises:
+        InputError: it cannot be read, a topic is missing or not to be told from others, or no row can be made.
+    """
+    bag = read_bag(path, name)
+    topics = topics_of(bag, choice, kind)
+    clock = clock_of([bag.messages[topic] for topic in topics.joints], bag.messages[topics.readings], topics.readings)
+    joints = _joint_signals(bag, topics.joints, clock)
+    names = _arm(bag, joints, joint_names)
+    readings, reasons = _readings(bag, topics, clock, choice.time_offset)
+    start = min(min(joints[n].time[0] for n in names), readings.time[0])
+    trajectory = Trajectory.of(names, {n: _from(joints[n], start) for n in names}, choice.rules.longest_gap)
+    rows = rows_of(
+        trajectory, _from(readings, start), choice.rules, _targets(bag, topics.targets, choice, clock, start)
+    )
+    if not len(rows):
+        raise InputError(printable(_no_rows(name, rows, trajectory, choice.rules)))
+    others = sorted(set(joints) - set(names))
+    ignored = (f"Joints that the arm does not have are ignored: {listed(map(printable, others))}.",) if others else ()
+    return Recorded(
+        bag,
+        names,
+        CHANNELS[topics.kind],
+        rows,
+        start,
+        topics.used,
+        {
+            "joint_states": sum(len(bag.messages[topic]) for topic in topics.joints),
+            "readings": len(bag.messages[topics.readings]),
+        },
+        reasons,
+        tuple(printable(remark) for remark in (*clock.remarks, *ignored)),
+    )
+
+
+def rows_csv(recorded: Recorded) -> str:
+    """Returns the text of an observations.csv, in metres and radians."""
+    rows, text = recorded.rows, io.StringIO()
+    text.write(f"# {printable(Path(recorded.bag.name).name)}, from {began(recorded.start)} on\n")
+    writer = csv.writer(text, lineterminator="\n")
+    stds = ([] if not recorded.scatters else ["std"] if len(recorded.channels) == 1 else
+            [f"std_{channel}" for channel in recorded.channels])  # fmt: skip
+    named = ["target"] if rows.target is not None else []
+    joints = [name.replace("#", "") for name in recorded.joint_names]  # it would begin a comment
+    writer.writerow([*joints, *recorded.channels, *stds, "repeats", "time", *named])
+    for k in range(len(rows)):
+        numbers = [f"{value:.10g}" for value in (*rows.joints[k], *rows.values[k])]
+        certain = [f"{value:.4g}" for value in rows.std[k]] if stds else []
+        target = [rows.target[k]] if rows.target is not None else []
+        writer.writerow([*numbers, *certain, int(rows.repeats[k]), f"{rows.time[k]:.3f}", *target])
+    return text.getvalue()
+
+
+def began(start: float) -> str:
+    """Returns when a recording began, in words; a clock that is not of this world is told in seconds."""
+    if not 1e8 < start < 1e10:
+        return f"{start:.3f} s of its clock"
+    return datetime.fromtimestamp(start, UTC).isoformat(sep=" ", timespec="milliseconds").replace("+00:00", " UTC")
+
+
+def _joint_signals(bag: Bag, topics: Sequence[str], clock: Clock) -> dict[str, Signal]:
+    """Returns the samples of every joint of some topics, whoever published it."""
+    times: dict[str, list[np.ndarray]] = {}
+    values: dict[str, list[np.ndarray]] = {}
+    for topic in topics:
+        messages = bag.messages[topic]
+        time = clock.time(messages)
+        together: dict[tuple[str, ...], list[int]] = {}
+        for k, (names, _) in enumerate(messages.values):
+            together.setdefault(names, []).append(k)
+        for names, places in together.items():
+            positions = np.array([messages.values[k][1] for k in places])
+            for column, joint in enumerate(names):
+                times.setdefault(joint, []).append(time[places])
+                values.setdefault(joint, []).append(positions[:, column])
+    signals = {}
+    for joint in times:
+        when, position = np.concatenate(times[joint]), np.concatenate(values[joint])
+        read = np.abs(position) < LARGEST  # neither NaN nor infinite
+        if read.any():
+            signals[joint] = Signal.of(when[read], position[read][:, None])
+    return signals
+
+
+def _arm(bag: Bag, joints: dict[str, Signal], wanted: Sequence[str] | None) -> tuple[str, ...]:
+    if wanted is None and joints:
+        return tuple(joints)
+    missing = [name for name in wanted or () if name not in joints]
+    if not missing and joints:
+        return tuple(wanted or ())
+    there = f"the joint states tell of {listed(map(shown, joints))}"
+    near = did_you_mean(missing[0][:100], joints) if missing else ""
+    raise InputError(printable(f"{bag.name}: there is no joint {listed(missing)}{near}; {there}"))
+
+
+def _readings(bag: Bag, topics: Topics, clock: Clock, offset: float) -> tuple[Signal, dict[str, int]]:
+    """Returns what the sensor read, NaN where that is no value, and how often it was none for which reason.
+
+    Out of range is infinite by REP 117, and below the lowest or above the highest range is as good as that.
+    """
+    messages = bag.messages[topics.readings]
+    numbers = np.array(messages.values, dtype=np.float64)
+    time = clock.time(messages) + offset
+    if topics.kind == "position":
+        bad = ~np.isfinite(numbers).all(axis=1)
+        numbers[bad] = np.nan
+        return Signal.of(time, numbers), {"no value": int(bad.sum())} if bad.any() else {}
+    value, low, high = numbers.T
+    limited = high > low
+    reason = np.select(
+        [np.isnan(value), value == np.inf, value == -np.inf, limited & ((value < low) | (value > high)), value <= 0.0],
+        ["not a number", "+Inf: nothing in range", "-Inf: too near", "beyond the ranger's own limits", "not above 0"],
+        "",
+    )
+    counts = Counter(reason[reason != ""].tolist())
+    return Signal.of(time, np.where(reason == "", value, np.nan)[:, None]), dict(sorted(counts.items()))
+
+
+def _targets(bag: Bag, words: str | None, choice: Choice, clock: Clock, start: float) -> list[tuple[float, str]] | None:
+    """Returns from when on the sensor pointed at what; None where nothing tells."""
+    if words is None:
+        return [(-np.inf, choice.target)] if choice.target is not None else None
+    messages = bag.messages[words]
+    told = sorted(zip((clock.time(messages) - start).tolist(), messages.values, strict=True))
+    return ([(-np.inf, choice.target)] if choice.target else []) + [
+        (t, " ".join(word.replace("#", "").split())) for t, word in told
+    ]
+
+
+def _from(signal: Signal, start: float) -> Signal:
+    return Signal(signal.time - start, signal.values)
+
+
+def _no_rows(name: str, rows: Rows, trajectory: Trajectory, rules: Rules) -> str:
+    if rows.skipped:
+        first = rows.skipped[0]
+        return (
+            f"{name}: none of {len(rows.skipped)} still phases gives a row; the first, from {first.start:.2f} s to "
+            f"{first.end:.2f} s: {first.reason}"
+        )
+    start, end = trajectory.span
+    return (
+        f"{name}: the arm never stood still for {rules.still_time:g} s with every joint known (joint states from "
+        f"{start:.2f} s to {end:.2f} s); expected pauses of about a second, or a higher still_speed than "
+        f"{rules.still_speed:g} rad/s"
+    )

@@ -1,0 +1,82 @@
+"""Where every joint was, at any time that its messages tell of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from boresight.recordings.rules import USUAL_GAP
+from boresight.recordings.signal import Signal
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """Joint readings over time; each joint has its own samples, since several nodes may publish parts of an arm.
+
+    Attributes:
+        names: of the joints, in order.
+        signals: (samples, 1) readings [rad or m] of each.
+        longest_gap: [s] of each, across which nothing is known.
+    """
+
+    names: tuple[str, ...]
+    signals: tuple[Signal, ...]
+    longest_gap: tuple[float, ...]
+
+    @classmethod
+    def of(cls, names: Sequence[str], signals: Mapping[str, Signal], longest_gap: float | None = None) -> Trajectory:
+        """Returns the trajectory of some joints.
+
+        Args:
+            names: the joints, in order.
+            signals: the samples of each, by name.
+            longest_gap: [s]; None takes three times a joint's usual distance of samples, at least 0.2 s.
+        """
+        chosen = tuple(signals[name] for name in names)
+        usual = [3.0 * float(np.median(np.diff(s.time))) if len(s) > 1 else 0.0 for s in chosen]
+        gaps = [longest_gap if longest_gap is not None else max(USUAL_GAP, gap) for gap in usual]
+        return cls(tuple(names), chosen, tuple(gaps))
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """From when to when [s] every joint is known."""
+        return max(s.time[0] for s in self.signals), min(s.time[-1] for s in self.signals)
+
+    def at(self, time: Float[np.ndarray, " times"]) -> Float[np.ndarray, "times joints"]:
+        """Returns the joints' readings at some times, linear between samples; NaN outside and across gaps."""
+        return np.stack(
+            [_interpolated(s, gap, time) for s, gap in zip(self.signals, self.longest_gap, strict=True)], axis=1
+        )
+
+    def during(self, start: float, end: float, when: float) -> Float[np.ndarray, " joints"]:
+        """Returns the joints' readings at a time within a phase, by a straight line through the phase's samples.
+
+        All samples of the phase are averaged, not the two beside that time, and a joint that creeps is followed.
+
+        Args:
+            start: of the phase [s].
+            end: of the phase [s].
+            when: the time [s], as a rule the mean time of what was measured meanwhile.
+        """
+        return np.array([_line(s, s.between(start, end), when) for s in self.signals])
+
+
+def _interpolated(signal: Signal, gap: float, time: Float[np.ndarray, " times"]) -> Float[np.ndarray, " times"]:
+    after = np.clip(np.searchsorted(signal.time, time), 1, max(1, len(signal) - 1))
+    if len(signal) < 2:
+        return np.full(len(time), np.nan)
+    known = (time >= signal.time[0]) & (time <= signal.time[-1])
+    known &= signal.time[after] - signal.time[after - 1] <= gap
+    return np.where(known, np.interp(time, signal.time, signal.values[:, 0]), np.nan)
+
+
+def _line(signal: Signal, samples: slice, when: float) -> float:
+    time, values = signal.time[samples], signal.values[samples, 0]
+    middle = time.mean()
+    spread = np.sum((time - middle) ** 2)
+    slope = np.sum((time - middle) * values) / spread if len(time) > 2 and spread > 0.0 else 0.0
+    # Beyond the samples a line knows nothing: the time is brought back to them.
+    return float(values.mean() + slope * (np.clip(when, time[0], time[-1]) - middle))
