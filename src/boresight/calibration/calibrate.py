@@ -52,6 +52,8 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
     readings = campaign.readings
     if readings is None or not len(readings):
         raise InputError(f"{campaign.name}: a calibration needs readings; give `observations:` in the campaign")
+    if not readings.measured:
+        raise InputError(f"{campaign.name}: there are configurations but no readings; measure them, then calibrate")
     nominal = find_frames(campaign.cell, readings, campaign.unknown, solver.seed)
     freedoms = freedoms_of(campaign, nominal)
     if not freedoms:

@@ -32,7 +32,7 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
 
     Args:
         path: the campaign.yaml; the files it names are relative to its folder.
-        need_readings: whether a campaign without observations is an error.
+        need_readings: whether a campaign without observations, or with configurations alone, is an error.
 
     Raises:
         InputError: everything that is wrong with the files, as far as it can be told at once.
@@ -49,7 +49,12 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
             with problems.gathered():
                 place, units = document.at((key,)), entry.units.value
                 data[key] = read_observations(
-                    document.path.parent / name, cell=cell, units=units, name=name, named_by=place
+                    document.path.parent / name,
+                    cell=cell,
+                    units=units,
+                    name=name,
+                    named_by=place,
+                    need_values=need_readings or key == "validation",
                 )
                 inputs[name] = data[key].sha256
         elif key == "observations" and need_readings:

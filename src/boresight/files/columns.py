@@ -43,7 +43,9 @@ class Columns:
     target: int | None
 
 
-def read_columns(header: Sequence[str], cell: Cell, units: Units, place: str, problems: Problems) -> Columns:
+def read_columns(
+    header: Sequence[str], cell: Cell, units: Units, place: str, problems: Problems, *, need_values: bool = True
+) -> Columns:
     """Returns the columns that a header names; they make no sense where a problem was added.
 
     Args:
@@ -52,12 +54,15 @@ def read_columns(header: Sequence[str], cell: Cell, units: Units, place: str, pr
         units: of the file.
         place: the header's place, as the beginning of a sentence.
         problems: where faults are added.
+        need_values: whether columns of configurations alone, without any of the sensor's, are a fault.
     """
     if len(header) == 1 and (";" in header[0] or "\t" in header[0]):
         problems.add(f"{place}the columns are not separated by commas; expected j1,j2,... with decimal points")
         return Columns(1, (), (), (), 0, 0, 0, False, None)
     at = {name: column for column, name in enumerate(header)}
     channels = _channels(cell, at, place, problems)
+    if not need_values and not any(channel in at for channel in channels):
+        channels = ()
     stds = _stds(cell, channels, at, place, problems)
     _check_names(header, cell, channels, place, problems)
     wants_target = cell.sensor.needs_target and "target" in at
@@ -123,7 +128,14 @@ def _check_names(header: Sequence[str], cell: Cell, channels: Sequence[str], pla
             near = "" if problems.full else did_you_mean(name[:60], known)
             others = f"{listed(needed)} and, if wanted, {listed(optional)}"
             problems.add(f"{place}unknown column {shown(name)}{near}; expected columns {others}")
+    columns = listed(map(shown, header))
+    if channels and not set(channels) & set(header) and set(joints) <= set(header):
+        problems.add(
+            f"{place}there are configurations but no readings, no column for {listed(channels)}; the columns are "
+            f"{columns}; `boresight inspect` needs no readings, anything else does"
+        )
+        return
     for name in needed:
         if name not in header:
             kind = f"joint {name}" if name in joints else name
-            problems.add(f"{place}there is no column for {kind}; the columns are {listed(map(shown, header))}")
+            problems.add(f"{place}there is no column for {kind}; the columns are {columns}")

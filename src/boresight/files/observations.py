@@ -40,7 +40,13 @@ class Observations:
 
 
 def read_observations(
-    path: Path | str, *, cell: Cell, units: Units, name: str | None = None, named_by: str = ""
+    path: Path | str,
+    *,
+    cell: Cell,
+    units: Units,
+    name: str | None = None,
+    named_by: str = "",
+    need_values: bool = True,
 ) -> Observations:
     """Returns the readings of a CSV file, in metres and radians.
 
@@ -50,6 +56,8 @@ def read_observations(
         units: the units it is written in.
         name: what the user calls it; the path as given by default.
         named_by: the place that names the file, as the beginning of a sentence.
+        need_values: whether configurations alone, without any column of the sensor's, are an error; their values
+            are NaN where they are not.
 
     Raises:
         InputError: it cannot be read, or not one row of it is usable.
@@ -58,7 +66,7 @@ def read_observations(
     mend = "thin it or split it"
     source = read_source(Path(path), name, kind="a CSV file", limit_mib=LIMIT_MIB, mend=mend, named_by=named_by)
     problems = Problems()
-    table = read_table(source, cell, units, problems)
+    table = read_table(source, cell, units, problems, need_values=need_values)
     problems.raise_if_any()
     return _judged(table, source, cell, units)
 
@@ -83,6 +91,8 @@ def _judged(table: Table, source: Source, cell: Cell, units: Units) -> Observati
     # One multiplication a number, so that a file in metres and radians is read to the bit.
     kept = numbers[usable] * np.array(columns.scales)
     joints, values = kept[:, : columns.joints], kept[:, columns.joints : columns.joints + columns.channels]
+    if not columns.channels:
+        values = np.full((len(kept), len(cell.sensor.channels)), np.nan)
     std = _std(kept, columns, cell)
     readings = Readings(joints, values, std, table.target[usable], table.line[usable])
     return Observations(readings, set_aside, suspicions(readings, cell, units, source.name), source.sha256)
@@ -90,11 +100,11 @@ def _judged(table: Table, source: Source, cell: Cell, units: Units) -> Observati
 
 def _std(kept: Float[np.ndarray, "rows columns"], columns: Columns, cell: Cell) -> Float[np.ndarray, "rows channels"]:
     """The standard deviation [m] of each value: the row's own, or one reading's over the root of the repeats."""
-    start = columns.joints + columns.channels
+    start, channels = columns.joints + columns.channels, len(cell.sensor.channels)
     if columns.stds:
-        return np.array(np.broadcast_to(kept[:, start : start + columns.stds], (len(kept), columns.channels)))
+        return np.array(np.broadcast_to(kept[:, start : start + columns.stds], (len(kept), channels)))
     repeats = kept[:, -1:] if columns.repeats else np.full((len(kept), 1), float(cell.sensor.repeats))
-    return np.repeat(cell.sensor.noise_std / np.sqrt(repeats), columns.channels, axis=1)
+    return np.repeat(cell.sensor.noise_std / np.sqrt(repeats), channels, axis=1)
 
 
 def _check_certainty(table: Table, name: str) -> None:

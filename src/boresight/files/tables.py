@@ -55,7 +55,7 @@ class Table:
         return "; ".join(reasons)
 
 
-def read_table(source: Source, cell: Cell, units: Units, problems: Problems) -> Table:
+def read_table(source: Source, cell: Cell, units: Units, problems: Problems, *, need_values: bool = True) -> Table:
     """Returns the numbers of an observations file; they make no sense where a problem was added.
 
     Args:
@@ -63,12 +63,14 @@ def read_table(source: Source, cell: Cell, units: Units, problems: Problems) -> 
         cell: the arm, the sensor and the targets that it is about.
         units: the units it is written in.
         problems: where faults are added.
+        need_values: whether configurations alone are a fault.
     """
     lines = _rows(source)
     line, header = next(lines, (1, []))
     if not header:
         raise InputError(f"{source.name}: the file is empty; expected a row of column names and then readings")
-    columns = read_columns([name.strip() for name in header], cell, units, f"{source.name}, line {line}: ", problems)
+    names = [name.strip() for name in header]
+    columns = read_columns(names, cell, units, f"{source.name}, line {line}: ", problems, need_values=need_values)
     problems.raise_if_any()
     place_of = {name: place for place, name in enumerate(cell.targets)}
     numeric = itemgetter(*columns.places)

@@ -14,7 +14,8 @@ class Readings:
 
     Attributes:
         joints: (rows, joints) joint readings [rad or m].
-        values: (rows, channels) measured values, in the order of the sensor's channels.
+        values: (rows, channels) measured values, in the order of the sensor's channels; NaN where configurations
+            were only planned and nothing was measured yet.
         std: (rows, channels) standard deviation of each value, as stated.
         target: (rows,) index of the target the sensor pointed at; 0 where it needs none.
         line: (rows,) the line of the file a row came from, for messages.
@@ -29,6 +30,11 @@ class Readings:
     def __len__(self) -> int:
         """Number of rows."""
         return len(self.joints)
+
+    @property
+    def measured(self) -> bool:
+        """Whether there are values, and not configurations alone."""
+        return not np.isnan(self.values).any()
 
     def chosen(self, rows: Int[np.ndarray, "some"] | Bool[np.ndarray, "rows"]) -> Readings:
         """Returns the readings of some rows, by index or mask."""
