@@ -60,11 +60,11 @@ def read_columns(
         problems.add(f"{place}the columns are not separated by commas; expected j1,j2,... with decimal points")
         return Columns(1, (), (), (), 0, 0, 0, False, None)
     at = {name: column for column, name in enumerate(header)}
-    channels = _channels(cell, at, place, problems)
+    channels = known = _channels(cell, at, place, problems)
     if not need_values and not any(channel in at for channel in channels):
         channels = ()
     stds = _stds(cell, channels, at, place, problems)
-    _check_names(header, cell, channels, place, problems)
+    _check_names(header, cell, known, channels, place, problems)
     wants_target = cell.sensor.needs_target and "target" in at
     if cell.sensor.needs_target and "target" not in at and len(cell.targets) > 1:
         problems.add(
@@ -111,12 +111,19 @@ def _stds(cell: Cell, channels: Sequence[str], at: dict[str, int], place: str, p
     return ("std",) if "std" in at else tuple(given)
 
 
-def _check_names(header: Sequence[str], cell: Cell, channels: Sequence[str], place: str, problems: Problems) -> None:
+def _check_names(
+    header: Sequence[str],
+    cell: Cell,
+    known_channels: Sequence[str],
+    channels: Sequence[str],
+    place: str,
+    problems: Problems,
+) -> None:
     joints = cell.arm.joint_names
     needed = (*joints, *channels)
-    optional = ("target", "std", *(f"std_{channel}" for channel in channels), "repeats", *IGNORED)
-    known = dict.fromkeys((*needed, *(OTHER_NAMES.get(channel, channel) for channel in channels), *optional))
-    for name in sorted(set(joints) & {*channels, *optional}):
+    optional = ("target", "std", *(f"std_{channel}" for channel in known_channels), "repeats", *IGNORED)
+    known = dict.fromkeys((*joints, *known_channels, *(OTHER_NAMES.get(name, name) for name in known_channels), *optional))
+    for name in sorted(set(joints) & {*known_channels, *optional}):
         problems.add(f"{place}{name} is a joint and a column of its own meaning; call the joint something else")
     counts = Counter(header)
     for column, name in enumerate(header, start=1):
@@ -126,7 +133,7 @@ def _check_names(header: Sequence[str], cell: Cell, channels: Sequence[str], pla
             problems.add(f"{place}there are several columns {shown(name)}; expected one")
         elif name not in known:
             near = "" if problems.full else did_you_mean(name[:60], known)
-            others = f"{listed(needed)} and, if wanted, {listed(optional)}"
+            others = f"{listed((*joints, *known_channels))} and, if wanted, {listed(optional)}"
             problems.add(f"{place}unknown column {shown(name)}{near}; expected columns {others}")
     columns = listed(map(shown, header))
     if channels and not set(channels) & set(header) and set(joints) <= set(header):
