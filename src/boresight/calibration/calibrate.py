@@ -86,7 +86,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         outliers=find_outliers(solution.fit),
         readings=readings,
         errors={"before": problem.errors(np.zeros(len(x))), "after": problem.errors(x)},
-        stated_std=float(np.median(readings.std)),
+        stated_std=readings.usual_std,
         model_std=problem.model_std,
         noise=check_noise(solution.fit),
         solution=solution,
@@ -115,7 +115,7 @@ def _fitted_errors(nominal: Cell, identified: Cell, rows: Readings) -> Residuals
 
 def _warnings(fit: Fit) -> tuple[str, ...]:
     problem = fit.problem
-    values, free = problem.readings.values.size, len(problem.names)
+    values, free = problem.readings.count, len(problem.names)
     said = []
     if values < free:
         said.append(

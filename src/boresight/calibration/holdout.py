@@ -66,7 +66,7 @@ def by_cross_validation(fit: Fit, seed: int) -> HeldOut:
 
 def error_sizes(cell: Cell, rows: Readings) -> Float[np.ndarray, "rows"]:
     """Returns the size [m] of each row's error: of a range, or the length of a position's error vector."""
-    return np.linalg.norm(cell.predict(rows.joints, rows.target) - rows.values, axis=1)
+    return np.linalg.norm(cell.errors(rows), axis=1)
 
 
 def summarise(method: str, before: Float[np.ndarray, "rows"], after: Float[np.ndarray, "rows"]) -> Residuals:

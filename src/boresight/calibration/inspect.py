@@ -27,7 +27,7 @@ from boresight.inference import (
 )
 from boresight.inference.posterior import FLAT_PRIOR
 from boresight.sensing import Cell, Readings
-from boresight.synthetic import draw_configurations
+from boresight.synthetic import draw_configurations, exact_readings
 from boresight.units import UNIT_OF
 
 USUAL_ROWS = 100
@@ -139,15 +139,15 @@ def inspect(campaign: Campaign, *, rows: int | None = None, seed: int = 0) -> In
     found = identify_directions(problem.names, sensitivity, problem.scale)
     moves = movements_of(cell, readings.joints, readings.target, problem.names)
     kinds = [joint.type for joint in cell.arm.joints]
-    missed = int(np.count_nonzero(np.isnan(cell.predict(readings.joints, readings.target))))
+    missed = int(np.count_nonzero(np.isnan(cell.predict(readings.joints, readings.target, None, readings.reference))))
     return Inspection(
         name=campaign.name,
         seed=seed,
         rows=len(readings),
         drawn=drawn,
         missed=missed,
-        values=readings.values.size,
-        noise_std=float(np.median(readings.std)),
+        values=readings.count,
+        noise_std=readings.usual_std,
         targets=tuple(moves.aimed_at),
         free=problem.names,
         rank=found.rank,
@@ -167,16 +167,13 @@ def inspect(campaign: Campaign, *, rows: int | None = None, seed: int = 0) -> In
 
 def _drawn(cell: Cell, rows: int, seed: int) -> Readings:
     """Returns configurations that see their targets, with what would be read."""
-    joints, target = draw_configurations((cell,), rows, seed)
-    values = cell.predict(joints, target)
-    std = np.full(values.shape, cell.sensor.noise_std / np.sqrt(cell.sensor.repeats))
-    return Readings(joints, values, std, target, np.arange(rows) + 2)
+    return exact_readings(cell, *draw_configurations((cell,), rows, seed))
 
 
 def _arm_rank(cell: Cell, readings: Readings) -> int:
     """Returns how many combinations of all the arm's, base's and mount's numbers change the readings."""
-    moving = cell.parameters[: len(cell.chain.parameters)]
-    _, jacobian = cell.linearise(readings.joints, readings.target)
+    moving = cell.parameters[: len(cell.moving)]
+    jacobian = cell.slopes(readings)
     flat = np.nan_to_num(jacobian[:, :, : len(moving)] / readings.std[:, :, None], nan=0.0).reshape(-1, len(moving))
     scale = np.array([_FRAME_SCALE[parameter.quantity] for parameter in moving])
     return identify_directions(tuple(parameter.name for parameter in moving), flat, scale).rank
@@ -201,7 +198,7 @@ def _predictions(problem: Problem, sensitivity: np.ndarray) -> tuple[Prediction,
 
 def _warnings(problem: Problem, missed: int, guessed: bool) -> tuple[str, ...]:
     said = []
-    values, free = problem.readings.values.size, len(problem.names)
+    values, free = problem.readings.count, len(problem.names)
     if values - missed < free:
         said.append(
             f"{values - missed} readings cannot tell {free} parameters: some directions below are unseen only because "

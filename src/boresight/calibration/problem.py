@@ -50,7 +50,10 @@ class Problem:
 
     @cached_property
     def std(self) -> Float[np.ndarray, "rows channels"]:
-        """Standard deviation of each residual [m]: the sensor's noise and the model's own, in squares."""
+        """Standard deviation of each residual [m]: the sensor's noise and the model's own, in squares.
+
+        Infinite where a row's sensor has no such channel, so that it has no say in anything.
+        """
         return np.hypot(self.readings.std, self.model_std)
 
     @cached_property
@@ -101,7 +104,7 @@ class Problem:
     @property
     def usual_std(self) -> float:
         """The median standard deviation of a residual [m]."""
-        return float(np.median(self.std))
+        return float(np.median(self.std[self.readings.read]))
 
     def corrections(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "all"]:
         """Returns corrections of all the cell's parameters from those of the free ones."""
@@ -111,8 +114,7 @@ class Problem:
 
     def errors(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels"]:
         """Returns predicted minus measured values [m]; NaN where a beam misses."""
-        values = self.cell.predict(self.readings.joints, self.readings.target, self.corrections(x))
-        return values - self.readings.values
+        return self.cell.errors(self.readings, self.corrections(x))
 
     def residual(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "residuals"]:
         """Returns errors over their standard deviations, then corrections over theirs (MAP)."""
@@ -154,8 +156,7 @@ class Problem:
         return CompiledCost(program, compile_rows(self.cell, self.readings, weight))
 
     def _slopes(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels parameters"]:
-        _, full = self.cell.linearise(self.readings.joints, self.readings.target, self.corrections(x))
-        return np.nan_to_num(full[:, :, self.columns], nan=0.0)
+        return np.nan_to_num(self.cell.slopes(self.readings, self.corrections(x))[:, :, self.columns], nan=0.0)
 
     @cached_property
     def _root_weight(self) -> Float[np.ndarray, "rows channels"]:

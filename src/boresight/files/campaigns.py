@@ -5,24 +5,19 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import cast
 
 from boresight.arm import Arm
 from boresight.calibration.campaign import Campaign, Freedom
 from boresight.errors import InputError, did_you_mean
 from boresight.files.documents import Document, read_document
+from boresight.files.equipment import frame_of, read_aims, read_targets, sensor_of
 from boresight.files.explaining import validated
 from boresight.files.observations import Observations, read_observations
 from boresight.files.patterns import Matcher
 from boresight.files.problems import Problems, listed, shown
 from boresight.files.robots import arm_of, refuse_urdf
-from boresight.files.schemas import CampaignEntry, FrameEntry
-from boresight.geometry import Frame, Plane
-from boresight.sensing import Cell, LaserRanger, Position, Sensor
-from boresight.units import Units
-
-SENSORS: dict[str, type[LaserRanger] | type[Position]] = {kind.type: kind for kind in (LaserRanger, Position)}
-"""The kinds of sensor a campaign can name."""
+from boresight.files.schemas import CampaignEntry, PointEntry
+from boresight.sensing import Cell
 
 _FRAME_AXES = {"xyz": ("x", "y", "z"), "rpy": ("roll", "pitch", "yaw")}
 
@@ -67,7 +62,7 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
         validation=data["validation"].readings if "validation" in data else None,
         freedoms=choice.freedoms,
         fixed=choice.fixed,
-        unknown=_unknown("base", entry.base) | _unknown("mount", entry.mount),
+        unknown=_unknown(entry),
         set_aside=tuple(row for part in data.values() for row in part.set_aside),
         warnings=(*(warning for part in data.values() for warning in part.warnings), *_same_data(entry, data)),
         notes=choice.notes,
@@ -78,28 +73,35 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
 def _cell(document: Document, entry: CampaignEntry, inputs: dict[str, str], problems: Problems) -> Cell:
     """Returns the nominal cell; without an arm nothing else can be judged, so its faults are raised here."""
     units = entry.units.value
-    targets: dict[str, Plane] = {}
-    for name, plane in entry.targets.items():
-        try:
-            targets[name] = Plane.of(plane.normal, plane.offset * units.metres)
-        except ValueError:
-            given = f"{document.at(('targets', name, 'normal'))}got {shown(list(plane.normal))}"
-            problems.add(f"{given}; expected a direction, which is not zero and not beyond all measure")
-    # A cast, since a frozen value has no attributes to set and the protocol, as mypy reads it, has.
-    sensor = cast(Sensor, SENSORS[entry.sensor.type](entry.sensor.noise_std * units.metres, entry.sensor.repeats))
-    if sensor.needs_target and not entry.targets:
-        example = "targets: {deck: {type: plane, normal: [0, 0, 1], offset: -0.15}}"
-        problems.add(
-            f"{document.at(('sensor',))}a {sensor.type} points at a target and there is none; expected {example}"
-        )
+    targets = read_targets(document, entry, problems)
+    sensors = {name: sensor_of(each, units) for name, each in entry.named_sensors.items()}
+    mounts = {name: frame_of(each, units) for name, each in entry.named_mounts.items()}
+    aims = read_aims(document, entry, sensors, mounts, targets, problems)
     arm = None
     with problems.gathered():
         arm = _arm(document, entry, inputs)
-    for name in sorted(set(arm.joint_names) & set(targets)) if arm else ():
-        problems.add(f"{document.at(('targets', name))}a joint is called {name} too; expected another name")
+    _check_names(document, entry, arm, problems)
     problems.raise_if_any()
     assert arm is not None
-    return Cell(arm, sensor, _frame(entry.base, units), _frame(entry.mount, units), targets)
+    return Cell(
+        arm,
+        sensors if entry.sensors is not None else sensors["sensor"],
+        frame_of(entry.base, units),
+        mounts if entry.markers is not None else mounts["mount"],
+        targets,
+        aims if entry.sensors is not None or entry.markers is not None else (),
+    )
+
+
+def _check_names(document: Document, entry: CampaignEntry, arm: Arm | None, problems: Problems) -> None:
+    """Adds a fault for every name that two things have, since parameters are called after them."""
+    taken = dict.fromkeys(arm.joint_names if arm else (), "a joint")
+    kinds = {"targets": "a target", "markers": "a marker", "sensors": "a sensor"}
+    for key, kind in kinds.items():
+        for name in getattr(entry, key) or ():
+            if name in taken:
+                problems.add(f"{document.at((key, name))}{taken[name]} is called {name} too; expected another name")
+            taken[name] = kind
 
 
 def _arm(document: Document, entry: CampaignEntry, inputs: dict[str, str]) -> Arm:
@@ -118,15 +120,18 @@ def _arm(document: Document, entry: CampaignEntry, inputs: dict[str, str]) -> Ar
     return catalogue.load(wanted)
 
 
-def _frame(entry: FrameEntry, units: Units) -> Frame:
-    x, y, z = (value * units.metres for value in entry.xyz or (0.0, 0.0, 0.0))
-    roll, pitch, yaw = (value * units.radians for value in entry.rpy or (0.0, 0.0, 0.0))
-    return Frame((x, y, z), (roll, pitch, yaw))
-
-
-def _unknown(owner: str, entry: FrameEntry) -> frozenset[str]:
-    parts = [part for part in _FRAME_AXES if getattr(entry, part) is None]
-    return frozenset(f"{owner}.{axis}" for part in parts for axis in _FRAME_AXES[part])
+def _unknown(entry: CampaignEntry) -> frozenset[str]:
+    """Returns the parameters that a campaign calls unknown."""
+    owners = {"base": entry.base, **entry.named_mounts}
+    unknown = {
+        f"{owner}.{axis}"
+        for owner, frame in owners.items()
+        for part, axes in _FRAME_AXES.items()
+        if getattr(frame, part) is None
+        for axis in axes
+    }
+    points = (name for name, target in entry.targets.items() if isinstance(target, PointEntry) and not target.position)
+    return frozenset(unknown | {f"{name}.{axis}" for name in points for axis in "xyz"})
 
 
 def _same_data(entry: CampaignEntry, data: dict[str, Observations]) -> list[str]:

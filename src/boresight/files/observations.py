@@ -6,20 +6,24 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from boresight.calibration.campaign import SetAside
 from boresight.errors import InputError
-from boresight.files.columns import Columns
+from boresight.files.columns import QUATERNION, Columns
 from boresight.files.problems import Problems, printable
 from boresight.files.schemas import LARGEST, SMALLEST
 from boresight.files.sources import Source, read_source
 from boresight.files.suspicions import suspicions
 from boresight.files.tables import Table, read_table
-from boresight.sensing import Cell, Readings
+from boresight.geometry import quaternion_matrix
+from boresight.sensing import Cell, LaserRanger, Pose, Readings, Sensor
 from boresight.units import Units
 
 LIMIT_MIB = 512
+
+_NEARLY_UNIT = 0.01
+"""A quaternion whose length is farther from 1 is not a rounded one."""
 
 
 @dataclass(frozen=True)
@@ -77,12 +81,21 @@ def _judged(table: Table, source: Source, cell: Cell, units: Units) -> Observati
     if not len(numbers):
         raise InputError(f"{source.name}: there is a header but no row of readings under it")
     _check_certainty(table, source.name)
-    values = numbers[:, columns.joints : columns.joints + columns.channels]
-    usable = (np.abs(numbers) <= LARGEST).all(axis=1) & (table.target >= 0)
-    if cell.sensor.type == "laser_ranger":
-        usable &= ~(values <= 0.0).any(axis=1)
+    own = np.array([list(cell.sensors).index(aim.sensor) for aim in cell.aims])[table.target]
+    usable, needed = table.target >= 0, [columns.needed(name, sensor) for name, sensor in cell.sensors.items()]
+    problems = Problems()
+    for place, (name, sensor) in enumerate(cell.sensors.items()):
+        rows = np.flatnonzero(own == place)
+        usable[rows] &= (np.abs(numbers[rows][:, needed[place]]) <= LARGEST).all(axis=1)
+        if isinstance(sensor, LaserRanger):
+            usable[rows] &= ~(numbers[rows][:, list(columns.values[name])] <= 0.0).any(axis=1)
+        _check_strangers(table, rows[usable[rows]], needed[place], name, source.name, problems)
+        if isinstance(sensor, Pose) and not columns.planned:
+            _check_quaternions(table, rows[usable[rows]], columns.values[name][3:], source.name, problems)
+    problems.raise_if_any()
     set_aside = tuple(
-        SetAside(source.name, int(table.line[row]), table.reason(int(row))) for row in np.flatnonzero(~usable)
+        SetAside(source.name, int(table.line[row]), table.reason(int(row), needed[own[row]]))
+        for row in np.flatnonzero(~usable)
     )
     if not usable.any():
         first = set_aside[0]
@@ -90,36 +103,90 @@ def _judged(table: Table, source: Source, cell: Cell, units: Units) -> Observati
         raise InputError(printable(f"{source.name}: none of its {len(numbers)} rows can be used; {why}"))
     # One multiplication a number, so that a file in metres and radians is read to the bit.
     kept = numbers[usable] * np.array(columns.scales)
-    joints, values = kept[:, : columns.joints], kept[:, columns.joints : columns.joints + columns.channels]
-    if not columns.channels:
-        values = np.full((len(kept), len(cell.sensor.channels)), np.nan)
-    std = _std(kept, columns, cell)
-    readings = Readings(joints, values, std, table.target[usable], table.line[usable])
+    session = None if table.session is None else table.session[usable]
+    readings = _readings(kept, columns, cell, own[usable], table.target[usable], table.line[usable], session)
     return Observations(readings, set_aside, suspicions(readings, cell, units, source.name), source.sha256)
 
 
-def _std(kept: Float[np.ndarray, "rows columns"], columns: Columns, cell: Cell) -> Float[np.ndarray, "rows channels"]:
+def _readings(
+    kept: Float[np.ndarray, "rows columns"],
+    columns: Columns,
+    cell: Cell,
+    own: Int[np.ndarray, "rows"],
+    target: Int[np.ndarray, "rows"],
+    line: Int[np.ndarray, "rows"],
+    session: np.ndarray | None,
+) -> Readings:
+    """Returns numbers [m, rad or 1] as readings, each row as its sensor's."""
+    values, std = np.zeros((len(kept), cell.channels)), np.full((len(kept), cell.channels), np.inf)
+    reference = None
+    for place, (name, sensor) in enumerate(cell.sensors.items()):
+        rows, channels = np.flatnonzero(own == place), len(sensor.channels)
+        std[rows, :channels] = _std(kept[rows], columns, name, sensor)
+        given = kept[rows][:, list(columns.values[name])]
+        if columns.planned:
+            values[rows, :channels] = np.nan
+        elif isinstance(sensor, Pose):
+            values[rows, :3] = given[:, :3]
+            if reference is None:
+                reference = np.tile(np.eye(3), (len(kept), 1, 1))
+            reference[rows] = quaternion_matrix(given[:, 3:])
+        else:
+            values[rows, : given.shape[1]] = given
+    return Readings(kept[:, : columns.joints], values, std, target, line, reference, session)
+
+
+def _std(
+    kept: Float[np.ndarray, "rows columns"], columns: Columns, name: str, sensor: Sensor
+) -> Float[np.ndarray, "rows channels"]:
     """The standard deviation [m] of each value: the row's own, or one reading's over the root of the repeats."""
-    start, channels = columns.joints + columns.channels, len(cell.sensor.channels)
-    if columns.stds:
-        return np.array(np.broadcast_to(kept[:, start : start + columns.stds], (len(kept), channels)))
-    repeats = kept[:, -1:] if columns.repeats else np.full((len(kept), 1), float(cell.sensor.repeats))
-    return np.repeat(cell.sensor.noise_std / np.sqrt(repeats), channels, axis=1)
+    lengths = sum(lever is None for lever in sensor.levers)
+    repeats = np.full(len(kept), float(sensor.repeats)) if columns.repeats is None else kept[:, columns.repeats]
+    std = np.repeat((sensor.noise_std / np.sqrt(repeats))[:, None], len(sensor.channels), axis=1)
+    if columns.stds[name]:
+        std[:, :lengths] = kept[:, list(columns.stds[name])]
+    if columns.std_angle is not None and isinstance(sensor, Pose):
+        std[:, lengths:] = sensor.lever * kept[:, [columns.std_angle]]
+    return std
+
+
+def _check_strangers(
+    table: Table, rows: Int[np.ndarray, "some"], needed: list[int], sensor: str, name: str, problems: Problems
+) -> None:
+    """Adds a fault for every number that a row has and its sensor does not report: it would not be used."""
+    read = {column for values in table.columns.values.values() for column in values}
+    strangers = sorted(read - set(needed))
+    for row, place in zip(*np.nonzero(~np.isnan(table.numbers[rows][:, strangers])), strict=True):
+        problems.add(
+            f"{name}, line {table.line[rows[row]]}: {table.columns.names[strangers[place]]}: "
+            f"sensor {sensor} does not read it; expected an empty cell"
+        )
+
+
+def _check_quaternions(
+    table: Table, rows: Int[np.ndarray, "some"], columns: tuple[int, ...], name: str, problems: Problems
+) -> None:
+    lengths = np.linalg.norm(table.numbers[rows][:, list(columns)], axis=1)
+    for row in np.flatnonzero(np.abs(lengths - 1.0) > _NEARLY_UNIT):
+        problems.add(
+            f"{name}, line {table.line[rows[row]]}: the quaternion {', '.join(QUATERNION)} has length "
+            f"{lengths[row]:.6g}; expected 1: w first, then x, y and z"
+        )
 
 
 def _check_certainty(table: Table, name: str) -> None:
     """Raises an `InputError` for stated uncertainties that no measurement can have."""
     problems = Problems()
     columns = table.columns
-    start = columns.joints + columns.channels
-    for column in range(start, start + columns.stds):
+    stds = {column for stds in columns.stds.values() for column in stds}
+    for column in sorted(stds | ({columns.std_angle} if columns.std_angle is not None else set())):
         for row in np.flatnonzero(table.numbers[:, column] < SMALLEST):
             problems.add(
                 f"{name}, line {table.line[row]}: {columns.names[column]}: got {table.numbers[row, column]:g}; "
                 f"expected a standard deviation above 0; leave the cell empty to set the row aside"
             )
-    if columns.repeats:
-        repeats = table.numbers[:, -1]
+    if columns.repeats is not None:
+        repeats = table.numbers[:, columns.repeats]
         for row in np.flatnonzero(np.isfinite(repeats) & ((repeats < 1.0) | (repeats != np.floor(repeats)))):
             problems.add(
                 f"{name}, line {table.line[row]}: repeats: got {repeats[row]:g}; expected a whole number from 1"

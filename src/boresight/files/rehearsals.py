@@ -12,9 +12,11 @@ from ruamel.yaml import YAML
 from boresight.calibration.campaign import Campaign
 from boresight.calibration.simulate import Rehearsal
 from boresight.errors import OutputError
+from boresight.files.columns import QUATERNION
 from boresight.files.robots import dump_robot
 from boresight.files.writing import write_atomically
-from boresight.sensing import Cell, Readings
+from boresight.geometry import matrix_quaternion
+from boresight.sensing import Cell, Pose, Readings
 from boresight.units import Units
 
 
@@ -61,14 +63,29 @@ def _campaign_text(source: Path) -> tuple[str, Units]:
 def _readings_csv(cell: Cell, readings: Readings, units: Units) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    named = cell.sensor.needs_target
-    writer.writerow([*cell.arm.joint_names, *cell.sensor.channels, *(["target"] if named else [])])
+    columns = tuple(dict.fromkeys(column for sensor in cell.sensors.values() for column in sensor.columns))
+    writer.writerow([*cell.arm.joint_names, *columns, *_key_columns(cell)])
     per_joint = [units.radians if joint.type == "revolute" else units.metres for joint in cell.arm.joints]
-    names = list(cell.targets)
-    for joints, values, target in zip(readings.joints, readings.values, readings.target, strict=True):
-        numbers = [f"{value:.12g}" for value in (*(joints / per_joint), *(values / units.metres))]
-        writer.writerow([*numbers, *([names[target]] if named else [])])
+    for row, (joints, place) in enumerate(zip(readings.joints, readings.target, strict=True)):
+        aim = cell.aims[place]
+        sensor = cell.sensors[aim.sensor]
+        written = dict(zip(sensor.columns, readings.values[row] / units.metres, strict=False))
+        if isinstance(sensor, Pose) and readings.reference is not None:
+            written |= dict(zip(QUATERNION, matrix_quaternion(readings.reference[row]), strict=True))
+        numbers = [f"{value:.12g}" for value in joints / per_joint]
+        values = [f"{written[column]:.12g}" if column in written else "" for column in columns]
+        writer.writerow([*numbers, *values, *(getattr(aim, field) or "" for field in _key_columns(cell).values())])
     return text.getvalue()
+
+
+def _key_columns(cell: Cell) -> dict[str, str]:
+    """Returns the columns of names that a file needs, and the part of an aim that each holds."""
+    wanted = {
+        "sensor": ("sensor", len(cell.sensors) > 1),
+        "marker": ("mount", len(cell.mounts) > 1),
+        "target": ("target", any(aim.target is not None for aim in cell.aims)),
+    }
+    return {column: field for column, (field, needed) in wanted.items() if needed}
 
 
 def _truth_json(rehearsal: Rehearsal) -> str:

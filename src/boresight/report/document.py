@@ -10,9 +10,10 @@ import numpy as np
 
 from boresight.calibration.result import ErrorSummary, Residuals, Result
 from boresight.calibration.solve import Stage
-from boresight.geometry import Frame
+from boresight.geometry import Frame, Plane
 from boresight.inference import PoseUncertainty
 from boresight.inference.pose import COVERAGE
+from boresight.sensing import Target
 
 SCHEMA = "boresight-result/1"
 """Name and version of the layout; the number grows when a key changes its meaning or goes."""
@@ -56,10 +57,8 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
             "chi_square": _number(result.noise.chi_square),
             "degrees_of_freedom": result.noise.freedom,
         },
-        "frames": {"base": _frame(result.cell.base), "mount": _frame(result.cell.mount)},
-        "targets": {
-            name: {"normal": list(plane.normal), "offset": plane.offset} for name, plane in result.cell.targets.items()
-        },
+        "frames": {name: _frame(frame) for name, frame in {"base": result.cell.base, **result.cell.mounts}.items()},
+        "targets": {name: _target(target) for name, target in result.cell.targets.items()},
         "correlations": [
             {"parameters": [first, second], "correlation": value} for first, second, value in result.correlations()
         ],
@@ -148,6 +147,12 @@ def _stage(stage: Stage) -> dict[str, Any]:
         "evaluations": stage.evaluations,
         "outcome": stage.outcome,
     }
+
+
+def _target(target: Target) -> dict[str, Any]:
+    if isinstance(target, Plane):
+        return {"normal": list(target.normal), "offset": target.offset}
+    return {"position": list(target.xyz)}
 
 
 def _frame(frame: Frame) -> dict[str, list[float]]:

@@ -35,7 +35,9 @@ def print_summary(console: Console, result: Result, folder: Path) -> None:
 
 
 def _errors_table(result: Result) -> Table:
-    kind = "range error" if result.cell.sensor.needs_target else "position error"
+    kinds = {"laser_ranger": "range error", "draw_wire": "length error", "plane_contact": "contact error"}
+    types = {sensor.type for sensor in result.cell.sensors.values()}
+    kind = "error" if len(types) > 1 else kinds.get(next(iter(types)), "position error")
     table = Table(box=None, padding=(0, 2), pad_edge=True)
     table.add_column(kind, style="bold")
     table.add_column("rows", justify="right")

@@ -1,5 +1,6 @@
 """Simulated readings of a perturbed truth (paper, section 4.2)."""
 
 from boresight.synthetic.readings import draw_configurations as draw_configurations
+from boresight.synthetic.readings import exact_readings as exact_readings
 from boresight.synthetic.readings import perturbed as perturbed
 from boresight.synthetic.readings import simulated_readings as simulated_readings
