@@ -12,6 +12,7 @@ from boresight.calibration.freedom import freedoms_of
 from boresight.calibration.left_out import LeftOut, left_out
 from boresight.calibration.problem import Problem
 from boresight.errors import InputError
+from boresight.geometry import Frame, rpy_matrix
 from boresight.inference import (
     HardlySeen,
     Observability,
@@ -27,6 +28,7 @@ from boresight.inference import (
 )
 from boresight.inference.posterior import FLAT_PRIOR
 from boresight.sensing import Cell, Readings
+from boresight.sensing.cell import FRAME_NUMBERS
 from boresight.synthetic import draw_configurations, exact_readings
 from boresight.units import UNIT_OF
 
@@ -171,12 +173,27 @@ def _drawn(cell: Cell, rows: int, seed: int) -> Readings:
 
 
 def _arm_rank(cell: Cell, readings: Readings) -> int:
-    """Returns how many combinations of all the arm's, base's and mount's numbers change the readings."""
-    moving = cell.parameters[: len(cell.moving)]
-    jacobian = cell.slopes(readings)
-    flat = np.nan_to_num(jacobian[:, :, : len(moving)] / readings.std[:, :, None], nan=0.0).reshape(-1, len(moving))
-    scale = np.array([_FRAME_SCALE[parameter.quantity] for parameter in moving])
-    return identify_directions(tuple(parameter.name for parameter in moving), flat, scale).rank
+    """Returns how many combinations of all the arm's, base's and tool's numbers change the readings.
+
+    Several markers count as one tool of known shape.
+    """
+    slopes = np.nan_to_num(cell.slopes(readings) / readings.std[:, :, None], nan=0.0).reshape(-1, len(cell.parameters))
+    own = {name: [cell.index[f"{name}.{number}"] for number in FRAME_NUMBERS] for name in cell.mounts}
+    on_flange = sum(slopes[:, own[name]] @ _with_flange(frame) for name, frame in cell.mounts.items())
+    shared = [name for name in cell.moving if name.partition(".")[0] not in cell.mounts]
+    flat = np.hstack([slopes[:, [cell.index[name] for name in shared]], on_flange])
+    quantities = [cell.parameters[cell.index[name]].quantity for name in shared] + ["length"] * 3 + ["angle"] * 3
+    names = (*shared, *(f"flange.{number}" for number in FRAME_NUMBERS))
+    return identify_directions(names, flat, np.array([_FRAME_SCALE[quantity] for quantity in quantities])).rank
+
+
+def _with_flange(frame: Frame) -> np.ndarray:
+    """Returns how the six numbers of a mount change when it shifts and turns with the flange."""
+    x, y, z = frame.xyz
+    carried = np.eye(6)
+    carried[:3, 3:] = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
+    carried[3:, 3:] = rpy_matrix(frame.rpy).T
+    return carried
 
 
 def _predictions(problem: Problem, sensitivity: np.ndarray) -> tuple[Prediction, ...]:

@@ -83,9 +83,9 @@ def mend(kind: Kind, names: tuple[str, ...], moves: Movements | None, motion: st
     if kind == "gliding":
         which = "it" if len(names) == 1 else "them"
         if moves is not None and not moves.planes:
-            return f"measure to more points, three that are not in line, or fix {which}, as these lengths need not know"
+            return f"measure to more points, three that are not in line, or fix {which}, as these readings need not know"
         plane = _targets(moves) if moves else "the plane"
-        return f"measure against one more plane, not parallel to {plane}, or fix {which}, as these ranges need not know"
+        return f"measure against one more plane, not parallel to {plane}, or fix {which}, as these readings need not know"
     if kind == "base":
         if any(_is_target(name, moves) for name in names):
             known = " (a known azimuth)" if motion == "turning about z" else ""
