@@ -9,6 +9,7 @@ from boresight.calibration.estimates import estimates_of
 from boresight.calibration.frames import find_frames
 from boresight.calibration.freedom import freedoms_of
 from boresight.calibration.holdout import by_cross_validation, error_sizes, on_validation_rows, summarise
+from boresight.calibration.jumps import find_jumps
 from boresight.calibration.left_out import left_out, left_out_in_words
 from boresight.calibration.outliers import find_outliers
 from boresight.calibration.problem import Problem
@@ -71,6 +72,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         held_out = by_cross_validation(solution.fit, solver.seed)
     spread = spread_configurations(identified, WORKSPACE_CONFIGURATIONS)
     in_workspace = pose_uncertainty(identified, problem.names, covariance, spread)
+    jumps = find_jumps(solution.fit)
     unseen = tuple(Unseen(each.parameters, each.words) for each in unseen_in_words(found, problem.scale, moves))
     return Result(
         name=campaign.name,
@@ -103,7 +105,8 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
             identified, problem.names, covariance, spread_configurations(identified, WORKSPACE_CONFIGURATIONS)
         ),
         set_aside=campaign.set_aside,
-        warnings=campaign.warnings + _warnings(solution.fit),
+        warnings=campaign.warnings + _warnings(solution.fit) + tuple(jump.words for jump in jumps),
+        jumps=jumps,
         notes=campaign.notes + left_out_in_words(left_out(campaign, nominal, freedoms)),
         inputs=campaign.inputs,
     )

@@ -48,6 +48,8 @@ def find_frames(cell: Cell, readings: Readings, unknown: frozenset[str], seed: i
         return cell
     readings = replace(readings, std=np.where(readings.read, _NOISE_M, np.inf))
     few = readings.chosen(np.unique(np.linspace(0, len(readings) - 1, min(_ROWS, len(readings))).astype(int)))
+    if set(names) <= set(cell.offsets):  # they add to readings: a straight line leads there from anywhere
+        return _settle(cell, readings, names)[0]
     widths = {"angle": np.pi, "length": _span(cell, readings)}
     quantity = {parameter.name: parameter.quantity for parameter in cell.parameters}
     freedoms = tuple(Freedom(name, widths[quantity[name]], None) for name in names)

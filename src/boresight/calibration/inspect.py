@@ -124,7 +124,7 @@ def inspect(campaign: Campaign, *, rows: int | None = None, seed: int = 0) -> In
         InputError: every parameter is fixed, or hardly any configuration sees a target.
     """
     measured = campaign.readings is not None and campaign.readings.measured
-    cell, guessed = campaign.cell, bool(campaign.unknown) and not measured
+    cell, guessed = campaign.cell, bool(campaign.unknown - set(campaign.cell.offsets)) and not measured
     if campaign.readings is not None and measured:
         cell = find_frames(cell, campaign.readings, campaign.unknown, seed)
     drawn = rows is not None or campaign.readings is None

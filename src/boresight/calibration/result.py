@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from boresight.calibration.campaign import SetAside
+from boresight.calibration.jumps import Jump
 from boresight.calibration.robust import NoiseCheck
 from boresight.calibration.solve import Solution, Solver
 from boresight.inference import PoseUncertainty
@@ -150,6 +151,7 @@ class Result:
         at_rows: uncertainty of the tool's pose at the validation rows, or the calibration rows if there are none.
         in_workspace: uncertainty of the tool's pose at configurations spread within the joints' limits.
         set_aside: rows that were not used.
+        jumps: blocks of rows that a sensor read differently, and nobody said so.
         warnings: what a person should look at.
         notes: choices a person should know.
         inputs: SHA-256 by file name.
@@ -178,6 +180,7 @@ class Result:
     at_rows: PoseUncertainty
     in_workspace: PoseUncertainty
     set_aside: tuple[SetAside, ...]
+    jumps: tuple[Jump, ...]
     warnings: tuple[str, ...]
     notes: tuple[str, ...]
     inputs: Mapping[str, str]

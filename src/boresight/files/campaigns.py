@@ -17,7 +17,8 @@ from boresight.files.patterns import Matcher
 from boresight.files.problems import Problems, listed, shown
 from boresight.files.robots import arm_of, refuse_urdf
 from boresight.files.schemas import CampaignEntry, PointEntry
-from boresight.sensing import Cell
+from boresight.files.sessions import ONLY, in_sessions, sessions_of, with_sessions
+from boresight.sensing import Cell, Readings
 
 _FRAME_AXES = {"xyz": ("x", "y", "z"), "rpy": ("roll", "pitch", "yaw")}
 
@@ -55,14 +56,22 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
         elif key == "observations" and need_readings:
             problems.add(f"{document.at(())}there are no readings; expected observations: observations.csv")
     problems.raise_if_any()
+    plain, readings = cell, {key: part.readings for key, part in data.items()}
+    sensors = [name for name, sensor in entry.named_sensors.items() if sensor.offset_per is not None]
+    if sensors:
+        cell = _with_sessions(entry, plain, sensors, readings.get("observations"), problems)
+        readings = {
+            key: in_sessions(part, plain, cell, str(getattr(entry, key)), problems) for key, part in readings.items()
+        }
+        problems.raise_if_any()
     return Campaign(
         name=document.path.resolve().parent.name or cell.arm.name,
         cell=cell,
-        readings=data["observations"].readings if "observations" in data else None,
-        validation=data["validation"].readings if "validation" in data else None,
+        readings=readings.get("observations"),
+        validation=readings.get("validation"),
         freedoms=choice.freedoms,
         fixed=choice.fixed,
-        unknown=_unknown(entry),
+        unknown=_unknown(entry) | set(cell.offsets),
         set_aside=tuple(row for part in data.values() for row in part.set_aside),
         warnings=(*(warning for part in data.values() for warning in part.warnings), *_same_data(entry, data)),
         notes=choice.notes,
@@ -91,6 +100,21 @@ def _cell(document: Document, entry: CampaignEntry, inputs: dict[str, str], prob
         targets,
         aims if entry.sensors is not None or entry.markers is not None else (),
     )
+
+
+def _with_sessions(
+    entry: CampaignEntry, cell: Cell, sensors: list[str], readings: Readings | None, problems: Problems
+) -> Cell:
+    """Returns the cell with an offset for every session of the sensors that ask for them."""
+    if readings is None:
+        return with_sessions(cell, sensors, [ONLY])
+    if readings.session is None:
+        problems.add(
+            f"{entry.observations}: there is no column session; expected one, as `offset_per: session` gives "
+            f"{listed(sensors)} an offset for each"
+        )
+        problems.raise_if_any()
+    return with_sessions(cell, sensors, sessions_of(readings, cell, sensors) or [ONLY])
 
 
 def _check_names(document: Document, entry: CampaignEntry, arm: Arm | None, problems: Problems) -> None:

@@ -84,6 +84,7 @@ def _key_columns(cell: Cell) -> dict[str, str]:
         "sensor": ("sensor", len(cell.sensors) > 1),
         "marker": ("mount", len(cell.mounts) > 1),
         "target": ("target", any(aim.target is not None for aim in cell.aims)),
+        "session": ("session", any(aim.session is not None for aim in cell.aims)),
     }
     return {column: field for column, (field, needed) in wanted.items() if needed}
 

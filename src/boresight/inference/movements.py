@@ -110,7 +110,7 @@ def movements_of(
         names,
         tuple(cell.parameters[column].quantity for column in columns),
         twists,
-        tuple("" if column < moving else name.rsplit(".", 1)[0] for name, column in zip(names, columns, strict=True)),
+        tuple("" if column < moving else name.partition(".")[0] for name, column in zip(names, columns, strict=True)),
         motion.poses,
         np.array([used.index(aim.target) if aim.target in used else -1 for aim in aims]),
         np.array([list(cell.mounts).index(aim.mount) for aim in aims]),

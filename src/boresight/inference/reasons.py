@@ -81,11 +81,11 @@ def mend(kind: Kind, names: tuple[str, ...], moves: Movements | None, motion: st
     if kind == "still":
         return f"fix one of them, say `fixed: [{_least_physical(names)}]`"
     if kind == "gliding":
-        which = "it" if len(names) == 1 else "them"
+        fixed = f"or fix {'it' if len(names) == 1 else 'them'}, as these readings need not know"
         if moves is not None and not moves.planes:
-            return f"measure to more points, three that are not in line, or fix {which}, as these readings need not know"
+            return f"measure to more points, three that are not in line, {fixed}"
         plane = _targets(moves) if moves else "the plane"
-        return f"measure against one more plane, not parallel to {plane}, or fix {which}, as these readings need not know"
+        return f"measure against one more plane, not parallel to {plane}, {fixed}"
     if kind == "base":
         if any(_is_target(name, moves) for name in names):
             known = " (a known azimuth)" if motion == "turning about z" else ""

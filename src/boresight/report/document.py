@@ -73,6 +73,18 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
             }
             for outlier in result.outliers
         ],
+        "jumps": [
+            {
+                "sensor": jump.sensor,
+                "channel": jump.channel,
+                "line": jump.line,
+                "session": jump.session,
+                "size": jump.size,
+                "std": jump.std,
+                "unit": "rad" if jump.angle else "m",
+            }
+            for jump in result.jumps
+        ],
         "set_aside": [{"file": row.file, "line": row.line, "reason": row.reason} for row in result.set_aside],
         "warnings": list(result.warnings),
         "notes": list(result.notes),
