@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from boresight.calibration.by_sensor import errors_by_sensor
 from boresight.calibration.campaign import Campaign
 from boresight.calibration.estimates import estimates_of
 from boresight.calibration.frames import find_frames
@@ -72,6 +73,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         held_out = by_cross_validation(solution.fit, solver.seed)
     spread = spread_configurations(identified, WORKSPACE_CONFIGURATIONS)
     in_workspace = pose_uncertainty(identified, problem.names, covariance, spread)
+    errors = {"before": problem.errors(np.zeros(len(x))), "after": problem.errors(x)}
     jumps = find_jumps(solution.fit)
     unseen = tuple(Unseen(each.parameters, each.words) for each in unseen_in_words(found, problem.scale, moves))
     return Result(
@@ -85,9 +87,10 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         unseen=unseen,
         calibration=_fitted_errors(nominal, identified, readings.chosen(solution.fit.kept)),
         validation=held_out.residuals,
+        by_sensor=errors_by_sensor(identified, readings, solution.fit.kept, errors),
         outliers=find_outliers(solution.fit),
         readings=readings,
-        errors={"before": problem.errors(np.zeros(len(x))), "after": problem.errors(x)},
+        errors=errors,
         stated_std=readings.usual_std,
         model_std=problem.model_std,
         noise=check_noise(solution.fit),

@@ -73,10 +73,11 @@ def summarise(method: str, before: Float[np.ndarray, "rows"], after: Float[np.nd
     """Returns RMS and maximum of error sizes over the rows that both models can predict."""
     both = np.isfinite(before) & np.isfinite(after)
     missed = int(np.count_nonzero(~np.isfinite(after)))
-    return Residuals(method, int(np.count_nonzero(both)), missed, _size(before[both]), _size(after[both]))
+    return Residuals(method, int(np.count_nonzero(both)), missed, summary_of(before[both]), summary_of(after[both]))
 
 
-def _size(errors: Float[np.ndarray, "rows"]) -> ErrorSummary:
+def summary_of(errors: Float[np.ndarray, "rows"]) -> ErrorSummary:
+    """Returns RMS, mean and maximum of error sizes; NaN where there are none."""
     if not len(errors):
         return ErrorSummary(float("nan"), float("nan"), float("nan"))
     return ErrorSummary(rms(errors), float(np.mean(errors)), float(np.max(errors)))

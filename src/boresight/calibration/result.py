@@ -76,6 +76,28 @@ class Residuals:
 
 
 @dataclass(frozen=True, slots=True)
+class SensorErrors:
+    """Errors of what one sensor reads.
+
+    Attributes:
+        sensor: its name.
+        what: range, length, position, orientation or contact.
+        unit: m or rad.
+        rows: how many rows.
+        stated_std: median stated standard deviation of each value.
+        before, after: sizes of the errors, of a vector its length.
+    """
+
+    sensor: str
+    what: str
+    unit: str
+    rows: int
+    stated_std: float
+    before: ErrorSummary
+    after: ErrorSummary
+
+
+@dataclass(frozen=True, slots=True)
 class Outlier:
     """A row whose residual does not fit with the others.
 
@@ -138,6 +160,7 @@ class Result:
         unseen: directions they do not.
         calibration: errors of the rows that were fitted.
         validation: errors of rows that were not.
+        by_sensor: errors of the rows that were fitted, sensor by sensor, lengths apart from angles.
         outliers: rows that stand out.
         readings: the rows that were fitted.
         errors: (rows, channels) predicted minus measured [m], before and after.
@@ -167,6 +190,7 @@ class Result:
     unseen: tuple[Unseen, ...]
     calibration: Residuals
     validation: Residuals
+    by_sensor: tuple[SensorErrors, ...]
     outliers: tuple[Outlier, ...]
     readings: Readings
     errors: Mapping[str, Float[np.ndarray, "rows channels"]]

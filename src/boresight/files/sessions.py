@@ -23,9 +23,7 @@ def with_sessions(cell: Cell, sensors: Sequence[str], names: Sequence[str]) -> C
         names: the sessions.
     """
     aims = tuple(
-        replace(aim, session=name)
-        for aim in cell.aims
-        for name in (names if aim.sensor in sensors else (None,))  # type: ignore[list-item]
+        replace(aim, session=name) for aim in cell.aims for name in (names if aim.sensor in sensors else (None,))
     )
     return replace(cell, listed_aims=aims, offsets={aim.offset: 0.0 for aim in aims if aim.session is not None})
 
@@ -50,9 +48,7 @@ def in_sessions(readings: Readings, plain: Cell, cell: Cell, name: str, problems
             given = readings.session[row] if readings.session is not None else ""
             aim = replace(aim, session=given)
             if aim not in place:
-                fault = (
-                    f"there is no session {shown(given)}, of which no row was calibrated" if given else "it is empty"
-                )
+                fault = f"no row of {shown(given)} is calibrated with" if given else "the cell is empty"
                 problems.add(f"{name}, line {line}: session: {fault}; expected one of {listed(known)}")
         target[row] = place.get(aim, 0)
     return replace(readings, target=target)

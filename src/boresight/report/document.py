@@ -32,7 +32,22 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
         "version": version,
         "seed": result.solver.seed,
         "verdict": {"accepted": result.verdict.accepted, "reasons": list(result.verdict.reasons)},
-        "residuals": {"calibration": _residuals(result.calibration), "validation": _residuals(result.validation)},
+        "residuals": {
+            "calibration": _residuals(result.calibration),
+            "validation": _residuals(result.validation),
+            "by_sensor": [
+                {
+                    "sensor": each.sensor,
+                    "what": each.what,
+                    "unit": each.unit,
+                    "count": each.rows,
+                    "stated_std": each.stated_std,
+                    "before": _summary(each.before),
+                    "after": _summary(each.after),
+                }
+                for each in result.by_sensor
+            ],
+        },
         "parameters": [
             {
                 "name": estimate.name,

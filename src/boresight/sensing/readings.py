@@ -65,6 +65,11 @@ class Readings:
         """The median stated standard deviation of a value [m]."""
         return float(np.median(self.std[self.read]))
 
+    @property
+    def usual_row_std(self) -> float:
+        """The median over rows of the length of a row's stated standard deviations [m]."""
+        return float(np.median(np.linalg.norm(np.where(self.read, self.std, 0.0), axis=1)))
+
     def chosen(self, rows: Int[np.ndarray, "some"] | Bool[np.ndarray, "rows"]) -> Readings:
         """Returns the readings of some rows, by index or mask."""
         reference = None if self.reference is None else self.reference[rows]
