@@ -218,3 +218,17 @@ def test_sessions_are_kept_where_nobody_asked(folder):
     campaign = folder.write(campaign=WIRE, observations=SESSIONS).load()
     assert campaign.cell.offsets == {}
     assert campaign.readings.session.tolist() == ["mon", "tue"]
+
+
+def test_positions_are_joined_in_pairs_where_distances_count(folder, campaign_with):
+    text = campaign_with(("laser_ranger", "distances"))
+    rows = "j1,j2,x,y,z\n0.1,0,0,0,0\n0.2,0,1,0,0\n0.3,0,3,4,0\n0.4,0,1,0,2\n0.5,0,9,9,9\n"
+    campaign = folder.write(campaign=text, observations=rows).load()
+    readings = campaign.readings
+    assert readings.values.tolist() == [[5.0], [2.0]]
+    assert readings.line.tolist() == [2, 3]
+    assert readings.joints[:, 0].tolist() == [0.1, 0.2]
+    assert readings.since[:, 0].tolist() == [0.3, 0.4]
+    np.testing.assert_allclose(readings.std, 0.0002 / np.sqrt(4) * np.sqrt(2))
+    (aside,) = campaign.set_aside
+    assert (aside.line, aside.reason) == (6, "no position of its block is left to which its distance could be told")

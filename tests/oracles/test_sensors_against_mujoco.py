@@ -182,3 +182,24 @@ markers:
     assert position_error(world, result.cell, "ball") < 2e-4
     np.testing.assert_allclose(result.cell.targets["c"].xyz, POINTS["c"], atol=5e-4)
     assert [each.sensor for each in result.by_sensor] == ["tracker", "wire", "probe"]
+
+
+def test_distances_find_the_arm_wherever_the_tracker_stands(tmp_path):
+    world = World(6, Frame(), {"mount": BALL})
+    R, t = vector_rotation(np.array([0.3, -1.0, 2.0])), np.array([5.0, -3.0, 1.0])  # the tracker's own frame
+    rows = []
+    for _ in range(240):
+        q = world.configuration()
+        p = R @ world.pose(q, "mount")[:3, 3] + t + world.random.normal(0.0, 5e-5, 3)
+        rows.append(with_joints(q, dict(zip("xyz", p, strict=True))))
+    text = f"{HEAD}sensor: {{type: distances, noise_std: 5.0e-5}}\nmount: {{xyz: [0.05, -0.03, 0.08]}}\n"
+    campaign = write(tmp_path, text, rows)
+    assert len(campaign.readings) == 120
+    result = boresight.calibrate(campaign, Solver("least-squares"))
+    assert result.verdict.accepted
+    assert 0.75 < result.noise.ratio < 1.25
+    joints = np.array([world.configuration() for _ in range(40)])
+    truth = np.array([world.pose(each, "mount")[:3, 3] for each in joints])
+    found = result.cell.poses(joints)[:, :3, 3]
+    gaps = np.linalg.norm(found[::2] - found[1::2], axis=1) - np.linalg.norm(truth[::2] - truth[1::2], axis=1)
+    assert np.max(np.abs(gaps)) < 3e-4

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from boresight.sensing import Aim, Cell
+from boresight.sensing import Aim, Cell, Distances
 from random_cells import (
     CONVENTIONS,
     SENSORS,
@@ -57,6 +57,12 @@ def test_jacobian_equals_finite_differences(joints, convention, sensor):
 def test_jacobian_equals_finite_differences_with_every_sensor_on_two_markers(seed):
     rng = np.random.default_rng(seed)
     assert_jacobian_is_numeric(rng, mixed_cell(rng, random_arm(rng, 6)))
+
+
+def test_jacobian_of_distances_equals_finite_differences():
+    rng = np.random.default_rng(8)
+    cell = Cell(random_arm(rng, 6), Distances(1e-4), random_frame(rng), random_frame(rng))
+    assert_jacobian_is_numeric(rng, cell)
 
 
 def test_session_has_an_offset_of_its_own():

@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from boresight.calibration.campaign import Freedom
+from boresight.calibration.plain_cost import PlainCost
 from boresight.inference import posterior_covariance
 from boresight.search import Box
 from boresight.sensing import Cell, Readings
@@ -92,12 +93,12 @@ class Problem:
         return Box(-self._evolved_half_width, self._evolved_half_width)
 
     @cached_property
-    def cost(self) -> CompiledCost:
+    def cost(self) -> CompiledCost | PlainCost:
         """The compiled cost [m²] of all rows: squared residuals, scaled to the usual noise, and priors."""
         return self._compiled(0.0)
 
     @cached_property
-    def robust_cost(self) -> CompiledCost:
+    def robust_cost(self) -> CompiledCost | PlainCost:
         """The same with residuals beyond `ROBUST_WITHIN` standard deviations counted by size, not by square."""
         return self._compiled((ROBUST_WITHIN * self.usual_std) ** 2)
 
@@ -150,9 +151,11 @@ class Problem:
         """Returns the same problem on some of the rows."""
         return replace(self, readings=self.readings.chosen(rows), row_weights=self.row_weight[rows])
 
-    def _compiled(self, loss: float) -> CompiledCost:
-        weight = self.usual_std**2 / self.std**2
-        program = compile_program(self.cell, self.names, self.usual_std**2 / self.prior_std**2, loss)
+    def _compiled(self, loss: float) -> CompiledCost | PlainCost:
+        weight, prior = self.usual_std**2 / self.std**2, self.usual_std**2 / self.prior_std**2
+        if not all(sensor.readouts for sensor in self.cell.sensors.values()):
+            return PlainCost(self, weight, prior, loss)
+        program = compile_program(self.cell, self.names, prior, loss)
         return CompiledCost(program, compile_rows(self.cell, self.readings, weight))
 
     def _slopes(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels parameters"]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from boresight.errors import did_you_mean
@@ -9,7 +10,7 @@ from boresight.files.documents import Document
 from boresight.files.problems import Problems, listed, shown
 from boresight.files.schemas import CampaignEntry, FrameEntry, PointEntry, SensorEntry
 from boresight.geometry import Frame, Plane, Point
-from boresight.sensing import Aim, DrawWire, LaserRanger, PlaneContact, Pose, Position, Sensor, Target
+from boresight.sensing import Aim, Distances, DrawWire, LaserRanger, PlaneContact, Pose, Position, Sensor, Target
 from boresight.sensing.aims import targets_of
 from boresight.units import Units
 
@@ -24,6 +25,8 @@ def sensor_of(entry: SensorEntry, units: Units) -> Sensor:
     noise, repeats = entry.noise_std * units.metres, entry.repeats
     if entry.noise_angle_std is not None:
         return Pose(noise, entry.noise_angle_std * units.radians, repeats)
+    if entry.type == Distances.type:
+        return Distances(math.sqrt(2.0) * noise, repeats)
     kinds: dict[str, type[LaserRanger | DrawWire | Position | PlaneContact]]
     kinds = {kind.type: kind for kind in (LaserRanger, DrawWire, Position, PlaneContact)}
     return kinds[entry.type](noise, repeats)

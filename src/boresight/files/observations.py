@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
 from boresight.calibration.campaign import SetAside
 from boresight.errors import InputError
@@ -17,10 +17,13 @@ from boresight.files.sources import Source, read_source
 from boresight.files.suspicions import suspicions
 from boresight.files.tables import Table, read_table
 from boresight.geometry import quaternion_matrix
-from boresight.sensing import Cell, LaserRanger, Pose, Readings, Sensor
+from boresight.sensing import Cell, Distances, LaserRanger, Pose, Readings, Sensor
+from boresight.sensing.pairs import of_distances, pairs_of
 from boresight.units import Units
 
 LIMIT_MIB = 512
+
+_ALONE = "no position of its block is left to which its distance could be told"
 
 _NEARLY_UNIT = 0.01
 """A quaternion whose length is farther from 1 is not a rounded one."""
@@ -93,10 +96,12 @@ def _judged(table: Table, source: Source, cell: Cell, units: Units) -> Observati
         if isinstance(sensor, Pose) and not columns.planned:
             _check_quaternions(table, rows[usable[rows]], columns.values[name][3:], source.name, problems)
     problems.raise_if_any()
+    alone = _without_partner(table, cell, usable)
     set_aside = tuple(
-        SetAside(source.name, int(table.line[row]), table.reason(int(row), needed[own[row]]))
-        for row in np.flatnonzero(~usable)
+        SetAside(source.name, int(table.line[row]), _ALONE if alone[row] else table.reason(int(row), needed[own[row]]))
+        for row in np.flatnonzero(~usable | alone)
     )
+    usable &= ~alone
     if not usable.any():
         first = set_aside[0]
         why = f"the first, on line {first.line}: {first.reason}"
@@ -131,9 +136,37 @@ def _readings(
             if reference is None:
                 reference = np.tile(np.eye(3), (len(kept), 1, 1))
             reference[rows] = quaternion_matrix(given[:, 3:])
-        else:
+        elif not isinstance(sensor, Distances):
             values[rows, : given.shape[1]] = given
-    return Readings(kept[:, : columns.joints], values, std, target, line, reference, session)
+    readings = Readings(kept[:, : columns.joints], values, std, target, line, reference, session)
+    return _with_distances(readings, kept, columns, cell)
+
+
+def _without_partner(table: Table, cell: Cell, usable: Bool[np.ndarray, "rows"]) -> Bool[np.ndarray, "rows"]:
+    """Returns which usable rows are the last of an odd number of positions whose distances count."""
+    rows = np.flatnonzero(usable)
+    session = None if table.session is None else table.session[rows]
+    first, second = pairs_of(cell, table.target[rows], session)
+    alone = np.zeros(len(usable), dtype=bool)
+    alone[rows[np.setdiff1d(of_distances(cell, table.target[rows]), np.concatenate([first, second]))]] = True
+    return alone
+
+
+def _with_distances(
+    readings: Readings, kept: Float[np.ndarray, "rows columns"], columns: Columns, cell: Cell
+) -> Readings:
+    """Returns readings with positions whose distances count joined in pairs, the first row standing for both."""
+    positions = of_distances(cell, readings.target)
+    if not len(positions):
+        return readings
+    first, second = pairs_of(cell, readings.target, readings.session)
+    since, values, std = readings.joints.copy(), readings.values.copy(), readings.std.copy()
+    since[first] = readings.joints[second]
+    std[first, 0] = np.hypot(readings.std[first, 0], readings.std[second, 0]) / np.sqrt(2.0)
+    for row, other in zip(first, second, strict=True):
+        xyz = list(columns.values[cell.aims[readings.target[row]].sensor])
+        values[row, 0] = np.nan if columns.planned else np.linalg.norm(kept[row, xyz] - kept[other, xyz])
+    return replace(readings, values=values, std=std, since=since).chosen(np.setdiff1d(np.arange(len(readings)), second))
 
 
 def _std(
@@ -141,6 +174,8 @@ def _std(
 ) -> Float[np.ndarray, "rows channels"]:
     """The standard deviation [m] of each value: the row's own, or one reading's over the root of the repeats."""
     lengths = sum(lever is None for lever in sensor.levers)
+    if isinstance(sensor, Distances) and columns.stds[name]:  # the largest of its coordinates' for each end
+        return np.sqrt(2.0) * kept[:, list(columns.stds[name])].max(axis=1, keepdims=True)
     repeats = np.full(len(kept), float(sensor.repeats)) if columns.repeats is None else kept[:, columns.repeats]
     std = np.repeat((sensor.noise_std / np.sqrt(repeats))[:, None], len(sensor.channels), axis=1)
     if columns.stds[name]:

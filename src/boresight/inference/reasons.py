@@ -25,6 +25,8 @@ def opening(symmetry: Symmetry, moves: Movements | None) -> str:
         motion = symmetry.motion.replace(verb, f"{verb} the base", 1) if symmetry.motion else "moving the base"
         if owners:
             return f"{motion} while {verb} {_named(sorted(owners), moves)} with it changes no reading"
+        if not moves.targets:
+            return f"{motion} changes no reading, as distances do not depend on where the arm stands"
         return f"{motion} changes no reading" + ("" if "`" in motion else f", as {_targets(moves)} {_stay(moves)}")
     if symmetry.kind == "sensor":
         if symmetry.motion == "turning about z" and _has_beam(symmetry, moves):
@@ -94,6 +96,8 @@ def mend(kind: Kind, names: tuple[str, ...], moves: Movements | None, motion: st
                 f"fix {fixable}, which then defines where the base is; or survey the {what}{known} and fix its "
                 "parameters, or add a surveyed one; or give one of them a tighter `prior_std`"
             )
+        if moves is not None and not moves.targets:
+            return f"fix {fixable}; only positions in a known frame would show it"
         if moves is not None and moves.points and not moves.planes:
             return f"measure to one more point that is not in line with these, or fix {fixable}"
         return f"measure against one more plane that is not parallel to these, or fix {fixable}"

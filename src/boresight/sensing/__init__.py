@@ -3,6 +3,7 @@
 from boresight.sensing.aims import Aim as Aim
 from boresight.sensing.cell import Cell as Cell
 from boresight.sensing.cell import Parameter as Parameter
+from boresight.sensing.distances import Distances as Distances
 from boresight.sensing.draw_wire import DrawWire as DrawWire
 from boresight.sensing.laser_ranger import LaserRanger as LaserRanger
 from boresight.sensing.plane_contact import PlaneContact as PlaneContact

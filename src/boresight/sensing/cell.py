@@ -154,7 +154,8 @@ class Cell:
         joints: Float[np.ndarray, "rows joints"],
         target: Int[np.ndarray, "rows"],
         corrections: Float[np.ndarray, "parameters"] | None = None,
-        reference: Reference | None = None,
+        reference: Float[np.ndarray, "rows 3 3"] | None = None,
+        since: Float[np.ndarray, "rows joints"] | None = None,
     ) -> Float[np.ndarray, "rows channels"]:
         """Returns what the sensors would read [m]; NaN where one cannot see its target, 0 where it has no such channel.
 
@@ -163,12 +164,14 @@ class Cell:
             target: for each row the index of its aim: of its target, in the order of `targets`, for one sensor.
             corrections: added to the nominal values, in the order of `parameters`; none by default.
             reference: measured orientations from which a pose's turn is read; the identity by default.
+            since: the other configurations of distances between two; none by default.
         """
-        poses, reference = self.poses(joints, corrections, target), _reference(reference, len(joints))
+        poses = self.poses(joints, corrections, target)
+        against = _against(reference, None if since is None else self.poses(since, corrections, target), len(joints))
         values = np.zeros((len(joints), self.channels))
         for rows, aim in self._by_aim(target):
             sensor, at = self._sensor(aim, corrections), self._target(aim, corrections)
-            values[rows, : len(sensor.channels)] = sensor.predict(poses[rows], at, reference[rows])
+            values[rows, : len(sensor.channels)] = sensor.predict(poses[rows], at, against[rows])
         return values
 
     def linearise(
@@ -176,17 +179,23 @@ class Cell:
         joints: Float[np.ndarray, "rows joints"],
         target: Int[np.ndarray, "rows"],
         corrections: Float[np.ndarray, "parameters"] | None = None,
-        reference: Reference | None = None,
+        reference: Float[np.ndarray, "rows 3 3"] | None = None,
+        since: Float[np.ndarray, "rows joints"] | None = None,
     ) -> tuple[Float[np.ndarray, "rows channels"], Float[np.ndarray, "rows channels parameters"]]:
         """Returns what the sensors would read and its exact derivative by every parameter; see `predict`."""
-        motion, reference = self.linearised_poses(joints, target, corrections), _reference(reference, len(joints))
+        motion = self.linearised_poses(joints, target, corrections)
+        other = None if since is None else self.linearised_poses(since, target, corrections)
+        against = _against(reference, None if other is None else other.poses, len(joints))
         values = np.zeros((len(joints), self.channels))
         jacobian = np.zeros((len(joints), self.channels, len(self.parameters)))
         for rows, aim in self._by_aim(target):
             sensor, at = self._sensor(aim, corrections), self._target(aim, corrections)
-            response, channels = sensor.respond(motion.poses[rows], at, reference[rows]), len(sensor.channels)
+            response, channels = sensor.respond(motion.poses[rows], at, against[rows]), len(sensor.channels)
             values[rows, :channels] = response.values
             jacobian[rows, :channels, : len(self.moving)] = response.by_twist @ np.swapaxes(motion.twists[rows], 1, 2)
+            if response.by_reference is not None and other is not None:
+                twists = np.swapaxes(other.twists[rows], 1, 2)
+                jacobian[rows, :channels, : len(self.moving)] += response.by_reference @ twists
             if aim.target is not None and at is not None:
                 columns = self._target_columns(aim.target)
                 jacobian[rows, :channels, columns] = response.by_target @ at.derivative
@@ -199,13 +208,15 @@ class Cell:
         self, readings: Readings, corrections: Float[np.ndarray, "parameters"] | None = None
     ) -> Float[np.ndarray, "rows channels"]:
         """Returns predicted minus measured values [m]; NaN where a beam misses, 0 where there is no such channel."""
-        return self.predict(readings.joints, readings.target, corrections, readings.reference) - readings.values
+        at = readings
+        return self.predict(at.joints, at.target, corrections, at.reference, at.since) - at.values
 
     def slopes(
         self, readings: Readings, corrections: Float[np.ndarray, "parameters"] | None = None
     ) -> Float[np.ndarray, "rows channels parameters"]:
         """Returns the exact derivative of `errors`; NaN where a beam misses."""
-        return self.linearise(readings.joints, readings.target, corrections, readings.reference)[1]
+        at = readings
+        return self.linearise(at.joints, at.target, corrections, at.reference, at.since)[1]
 
     def corrected(self, corrections: Mapping[str, float]) -> Cell:
         """Returns the cell with corrections [m or rad] applied to the named parameters (paper, eq. 10)."""
@@ -273,8 +284,14 @@ class Cell:
                 yield rows, chain, np.array([self.index[name] for name in chain.parameters])
 
 
-def _reference(reference: Reference | None, rows: int) -> Reference:
-    return np.broadcast_to(np.eye(3), (rows, 3, 3)) if reference is None else reference
+def _against(
+    orientation: Float[np.ndarray, "rows 3 3"] | None, others: Float[np.ndarray, "rows 4 4"] | None, rows: int
+) -> Reference:
+    """Returns what rows are read against: other poses where there are any, with measured orientations."""
+    against = np.tile(np.eye(4), (rows, 1, 1)) if others is None else others.copy()
+    if orientation is not None:
+        against[:, :3, :3] = orientation
+    return against
 
 
 def _moved_target(name: str, target: Target, corrections: Mapping[str, float]) -> Target:

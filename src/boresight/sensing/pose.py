@@ -74,11 +74,11 @@ class Pose:
         p, turn = poses[:, :3, 3], _turn(poses, reference)
         by_twist = np.zeros((len(p), 6, 6))
         by_twist[:, :3] = shifts_by_twist(p)
-        by_twist[:, 3:, 3:] = self.lever * vector_slope(turn) @ np.swapaxes(reference, 1, 2)
+        by_twist[:, 3:, 3:] = self.lever * vector_slope(turn) @ np.swapaxes(reference[:, :3, :3], 1, 2)
         values = np.hstack([p, self.lever * turn])
         return Response(values, by_twist, np.zeros((len(p), 6, 0)), np.zeros((len(p), 6, 0)))
 
 
 def _turn(poses: Float[np.ndarray, "rows 4 4"], reference: Reference) -> Float[np.ndarray, "rows 3"]:
     """Returns the rotation vectors [rad] from measured to predicted orientations, in the measured tool's axes."""
-    return rotation_vector(np.swapaxes(reference, 1, 2) @ poses[:, :3, :3])
+    return rotation_vector(np.swapaxes(reference[:, :3, :3], 1, 2) @ poses[:, :3, :3])

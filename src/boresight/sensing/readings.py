@@ -26,6 +26,8 @@ class Readings:
         line: (rows,) the line of the file a row came from, for messages.
         reference: (rows, 3, 3) measured orientations, the identity where there is none; None where no row has one.
         session: (rows,) names of the blocks that rows belong to; None where nobody told.
+        since: (rows, joints) the other configuration of a distance between two, the row's own where it is of another
+            sensor; None where no row is one.
     """
 
     joints: Float[np.ndarray, "rows joints"]
@@ -35,6 +37,7 @@ class Readings:
     line: Int[np.ndarray, "rows"]
     reference: Float[np.ndarray, "rows 3 3"] | None = None
     session: np.ndarray | None = None
+    since: Float[np.ndarray, "rows joints"] | None = None
 
     def __len__(self) -> int:
         """Number of rows."""
@@ -75,5 +78,12 @@ class Readings:
         reference = None if self.reference is None else self.reference[rows]
         session = None if self.session is None else self.session[rows]
         return Readings(
-            self.joints[rows], self.values[rows], self.std[rows], self.target[rows], self.line[rows], reference, session
+            self.joints[rows],
+            self.values[rows],
+            self.std[rows],
+            self.target[rows],
+            self.line[rows],
+            reference,
+            session,
+            None if self.since is None else self.since[rows],
         )

@@ -26,8 +26,8 @@ Target = Plane | Point
 TargetKind = type[Plane] | type[Point] | None
 """The kind of target a sensor must be aimed at, if any."""
 
-Reference = Float[np.ndarray, "rows 3 3"]
-"""The measured orientation that predicted ones are compared with; the identity where none was measured."""
+Reference = Float[np.ndarray, "rows 4 4"]
+"""What a row is read against: the measured orientation of a pose, the other end of a distance; else the identity."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,12 +40,14 @@ class Response:
         by_target: (rows, channels, numbers) derivative by a plane's (n_x, n_y, n_z, f) or a point's (x, y, z); no
             numbers without a target.
         by_sensor: (rows, channels, numbers) derivative by the sensor's own numbers.
+        by_reference: (rows, channels, 6) derivative by the twist of the tool at the other end of a distance, or None.
     """
 
     values: Float[np.ndarray, "rows channels"]
     by_twist: Float[np.ndarray, "rows channels 6"]
     by_target: Float[np.ndarray, "rows channels of_target"]
     by_sensor: Float[np.ndarray, "rows channels of_sensor"]
+    by_reference: Float[np.ndarray, "rows channels 6"] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +97,7 @@ class Sensor(Protocol):
 
     @property
     def readouts(self) -> tuple[Readout, ...]:
-        """The compiled form of the channels."""
+        """The compiled form of the channels; none where the compiled search does not have it."""
         ...
 
     @property

@@ -14,6 +14,7 @@ from jaxtyping import Float, Int
 from boresight.errors import InputError
 from boresight.geometry import Plane, vector_rotation
 from boresight.sensing import Cell, LaserRanger, PlaneContact, Pose, Readings
+from boresight.sensing.pairs import of_distances, pairs_of
 from boresight.synthetic.touching import touching
 
 _TRUTH, _CONFIGURATIONS, _NOISE = range(3)
@@ -92,7 +93,7 @@ def simulated_readings(
     exact = exact_readings(cell, joints, target)
     std = np.where(exact.read, exact.std, 0.0)
     noise = _random(seed, _NOISE, part).normal(0.0, std)
-    reference, moved = exact.reference, np.array(joints, dtype=float)
+    reference, moved, target = exact.reference, np.array(exact.joints, dtype=float), exact.target
     for place in np.unique(target).tolist():
         rows, sensor = np.flatnonzero(target == place), cell.sensors[cell.aims[place].sensor]
         if isinstance(sensor, Pose) and reference is not None:
@@ -119,7 +120,7 @@ def exact_readings(cell: Cell, joints: Float[np.ndarray, "rows joints"], target:
         joints: configurations [rad or m].
         target: for each row the index of its aim.
     """
-    target = np.asarray(target)
+    joints, target, since = in_pairs(cell, joints, np.asarray(target))
     sensors = [cell.sensors[cell.aims[place].sensor] for place in target]
     std = np.full((len(joints), cell.channels), np.inf)
     for row, sensor in enumerate(sensors):
@@ -128,8 +129,21 @@ def exact_readings(cell: Cell, joints: Float[np.ndarray, "rows joints"], target:
     reference = None
     if turned.any():
         reference = np.where(turned[:, None, None], cell.poses(joints, None, target)[:, :3, :3], np.eye(3))
-    values = cell.predict(joints, target, None, reference)
-    return Readings(joints, values, std, target, np.arange(len(joints)) + 2, reference)
+    values = cell.predict(joints, target, None, reference, since)
+    return Readings(joints, values, std, target, np.arange(len(joints)) + 2, reference, None, since)
+
+
+def in_pairs(
+    cell: Cell, joints: Float[np.ndarray, "all joints"], target: Int[np.ndarray, "all"]
+) -> tuple[Float[np.ndarray, "rows joints"], Int[np.ndarray, "rows"], Float[np.ndarray, "rows joints"] | None]:
+    """Returns configurations, aims and, where distances between two are read, the other configuration of each."""
+    first, second = pairs_of(cell, target, None)
+    if not len(second):
+        return joints, target, None
+    since = joints.copy()
+    since[first] = joints[second]
+    kept = np.setdiff1d(np.arange(len(joints)), np.setdiff1d(of_distances(cell, target), first))
+    return joints[kept], target[kept], since[kept]
 
 
 def _sees(cell: Cell, joints: Float[np.ndarray, "rows joints"], place: int) -> np.ndarray:
