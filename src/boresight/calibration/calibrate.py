@@ -110,13 +110,23 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         set_aside=campaign.set_aside,
         warnings=campaign.warnings + _warnings(solution.fit) + tuple(jump.words for jump in jumps),
         jumps=jumps,
-        notes=campaign.notes + left_out_in_words(left_out(campaign, nominal, freedoms)),
+        notes=campaign.notes + _notes(nominal, solver) + left_out_in_words(left_out(campaign, nominal, freedoms)),
         inputs=campaign.inputs,
     )
 
 
 def _fitted_errors(nominal: Cell, identified: Cell, rows: Readings) -> Residuals:
     return summarise("calibration rows", error_sizes(nominal, rows), error_sizes(identified, rows))
+
+
+def _notes(cell: Cell, solver: Solver) -> tuple[str, ...]:
+    plain = [name for name, sensor in cell.sensors.items() if not sensor.readouts]
+    if not plain or solver.name == "least-squares":
+        return ()
+    return (
+        "Evolution ran a thousand times slower than it can, as distances have no compiled form; `--solver "
+        "least-squares` finds the same where the nominal model is near.",
+    )
 
 
 def _warnings(fit: Fit) -> tuple[str, ...]:

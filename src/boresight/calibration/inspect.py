@@ -141,7 +141,8 @@ def inspect(campaign: Campaign, *, rows: int | None = None, seed: int = 0) -> In
     found = identify_directions(problem.names, sensitivity, problem.scale)
     moves = movements_of(cell, readings.joints, readings.target, problem.names)
     kinds = [joint.type for joint in cell.arm.joints]
-    missed = int(np.count_nonzero(np.isnan(cell.errors(readings))))
+    predicted = cell.predict(readings.joints, readings.target, None, readings.reference, readings.since)
+    missed = int(np.count_nonzero(np.isnan(predicted)))
     return Inspection(
         name=campaign.name,
         seed=seed,

@@ -19,6 +19,8 @@ from pydantic import (
     Field,
     Strict,
     Tag,
+    ValidationInfo,
+    field_validator,
     model_validator,
 )
 from pydantic_core import PydanticCustomError
@@ -245,10 +247,10 @@ class CampaignEntry(Entry):
         description="the name of a robot.yaml, or {catalogue: NAME}"
     )
     units: UnitsEntry = UnitsEntry()
-    sensor: SensorEntry | None = None
     sensors: Annotated[dict[Name, SensorEntry], Field(min_length=1)] | None = None
-    mount: FrameEntry | None = None
+    sensor: SensorEntry | None = Field(default=None, validate_default=True)
     markers: Annotated[dict[Name, FrameEntry], Field(min_length=1)] | None = None
+    mount: FrameEntry | None = None
     base: FrameEntry = FrameEntry()
     targets: dict[Name, TargetEntry] = {}
     observations: str | None = None
@@ -256,15 +258,22 @@ class CampaignEntry(Entry):
     estimate: list[FreedomEntry] | None = None
     fixed: list[str] = []
 
-    @model_validator(mode="after")
-    def _one_way_to_say_it(self) -> CampaignEntry:
-        if self.sensor is None and self.sensors is None:
-            raise expected("a key sensor, a block such as {type: laser_ranger, noise_std: 0.0002}")
-        if self.sensor is not None and self.sensors is not None:
+    @field_validator("sensor")
+    @classmethod
+    def _one_sensor_or_several(cls, sensor: SensorEntry | None, others: ValidationInfo) -> SensorEntry | None:
+        several = others.data.get("sensors", ())  # not there where they have faults of their own
+        if sensor is None and several is None:
+            raise expected("sensor, a block such as {type: laser_ranger, noise_std: 0.0002}, or sensors by name")
+        if sensor is not None and several:
             raise expected("either sensor, or sensors by name")
-        if self.mount is not None and self.markers is not None:
+        return sensor
+
+    @field_validator("mount")
+    @classmethod
+    def _one_mount_or_several(cls, mount: FrameEntry | None, others: ValidationInfo) -> FrameEntry | None:
+        if mount is not None and others.data.get("markers"):
             raise expected("either mount, or markers by name")
-        return self
+        return mount
 
     @property
     def named_sensors(self) -> dict[str, SensorEntry]:
