@@ -1,10 +1,12 @@
 """`boresight inspect` as people and programs call it."""
 
+import csv
 import json
 from pathlib import Path
 
 import pytest
 
+import boresight
 from boresight.cli.app import app
 from boresight.errors import InputError
 
@@ -51,6 +53,41 @@ def test_campaign_without_readings_is_inspected_at_drawn_configurations(tmp_path
         "targets": ["deck", "wall_x", "wall_y"],
     }
     assert found["identifiability"]["rank"] == 23
+
+
+def configurations_alone(folder):
+    source = EXAMPLES / "space-arm-three-planes"
+    for name in ("robot.yaml", "campaign.yaml", "validation.csv"):
+        (folder / name).write_text((source / name).read_text())
+    with open(source / "observations.csv", newline="") as file:
+        rows = list(csv.reader(line for line in file if not line.startswith("#")))
+    kept = [column for column, name in enumerate(rows[0]) if name.startswith("j") or name == "target"]
+    text = "\n".join(",".join(row[column] for column in kept) for row in rows)
+    (folder / "observations.csv").write_text(text + "\n")
+    return folder / "campaign.yaml"
+
+
+def test_configurations_alone_are_as_good_as_readings(tmp_path, capsys):
+    run(str(configurations_alone(tmp_path)), "--json")
+    planned = json.loads(capsys.readouterr().out)
+    run(str(EXAMPLES / "space-arm-three-planes" / "campaign.yaml"), "--json")
+    measured = json.loads(capsys.readouterr().out)
+    assert not planned["configurations"]["drawn"]
+    for key in ("configurations", "identifiability", "parameters"):
+        assert planned[key] == measured[key]
+
+
+def test_configurations_alone_are_not_calibrated(tmp_path):
+    path = configurations_alone(tmp_path)
+    with pytest.raises(InputError, match=r"observations\.csv, line 1: there are configurations but no readings"):
+        app(["calibrate", str(path)], result_action="return_value", exit_on_error=False)
+    with pytest.raises(InputError, match="there are configurations but no readings; measure them"):
+        boresight.calibrate(boresight.load_campaign(path))
+
+
+def test_configurations_alone_can_be_rehearsed(tmp_path):
+    rehearsal = boresight.simulate(boresight.load_campaign(configurations_alone(tmp_path)))
+    assert rehearsal.readings.measured
 
 
 @pytest.mark.parametrize("option", [["--rows", "0"], ["--seed", "-1"]])

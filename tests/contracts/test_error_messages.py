@@ -21,7 +21,7 @@ PINNED = [
         "campaign.yaml",
         ("deck: {type: plane", "deck: {typ: plane"),
         [
-            "campaign.yaml, line 4: targets.deck.type: this key is missing; expected plane",
+            "campaign.yaml, line 4: targets.deck.type: this key is missing; expected plane or point",
             "campaign.yaml, line 4: targets.deck.typ: unknown key (did you mean type?); "
             "expected one of type, normal, offset",
         ],
@@ -31,7 +31,7 @@ PINNED = [
         ("laser_ranger", "laser_rangr"),
         [
             "campaign.yaml, line 2: sensor.type: got 'laser_rangr' (did you mean laser_ranger?); "
-            "expected one of laser_ranger, position"
+            "expected one of laser_ranger, draw_wire, position, pose, plane_contact, distances"
         ],
     ),
     (

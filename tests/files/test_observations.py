@@ -117,7 +117,7 @@ def test_an_unknown_column_names_the_nearest_and_a_missing_joint_is_named(proble
         ("j1,j2,range,std,std_range", "there are columns std and std_range"),
         ("j1;j2;range", "the columns are not separated by commas"),
         ("j1\tj2\trange", "the columns are not separated by commas"),
-        ("j1,j2", "there is no column for range"),
+        ("j1,j2,rang", "unknown column 'rang' (did you mean range?)"),
         ("j1,j2,range,targte", "unknown column 'targte' (did you mean target?)"),
     ],
 )

@@ -151,7 +151,7 @@ def _waves(joints):
 def _configurations(rng, cell, rows):
     lowest, highest = 0.8 * np.clip(cell.arm.limits, -2.9, 2.9).T
     joints = rng.uniform(lowest, highest, (40 * rows, len(lowest)))
-    if not cell.sensor.needs_target:
+    if cell.sensor.aims_at is None:
         return joints[:rows], np.zeros(rows, dtype=int)
     target = np.arange(len(joints)) % len(cell.targets)
     ranges = cell.predict(joints, target)[:, 0]
@@ -162,7 +162,7 @@ def _configurations(rng, cell, rows):
 
 
 def _values(cell, poses, target):
-    if not cell.sensor.needs_target:
+    if cell.sensor.aims_at is None:
         return poses[:, :3, 3]
     planes = np.array([[*plane.normal, plane.offset] for plane in cell.targets.values()])[target]
     height = planes[:, 3] + np.sum(planes[:, :3] * poses[:, :3, 3], axis=1)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 import pytest
 from independent_arms import mjcf
 
+from boresight.sensing import LaserRanger
 from random_cells import CONVENTIONS, random_arm, random_cell, random_joints
 
 TOLERANCE_M = 1e-9
@@ -72,7 +75,7 @@ def test_poses_and_ranges_equal_mujoco(convention, joints):
     rng = np.random.default_rng([joints, CONVENTIONS.index(convention)])
     hits = misses = 0
     for _ in range(CELLS):
-        cell = random_cell(rng, arm=random_arm(rng, joints, convention))
+        cell = replace(random_cell(rng, arm=random_arm(rng, joints, convention)), sensor=LaserRanger(2e-4))
         hit, missed = compare(cell, random_joints(rng, cell.arm, ROWS))
         hits, misses = hits + hit, misses + missed
     assert hits

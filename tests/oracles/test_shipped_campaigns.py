@@ -168,3 +168,18 @@ def test_result_json_holds_what_programs_rely_on(calibrated, tmp_path):
     names = {"campaign.yaml", "robot.yaml", "observations.csv", "validation.csv"}
     assert set(document["inputs"]) == names
     assert all(len(digest) == 64 for digest in document["inputs"].values())
+
+
+def test_draw_wires_find_the_arm_the_post_that_nobody_surveyed_and_what_each_day_was_zeroed_by(calibrated):
+    campaign, result = calibrated("draw-wire", "least-squares")
+    truth = json.loads((EXAMPLES / "draw-wire" / "truth.json").read_text())
+    assert result.verdict.accepted
+    assert result.jumps == ()
+    assert position_error_mm(campaign.cell.arm, campaign, "draw-wire") > 5.0
+    assert position_error_mm(result.cell.arm, campaign, "draw-wire") < 0.2
+    found = {each.name: each for each in result.estimates}
+    expected = {f"north.{axis}": value for axis, value in zip("xyz", truth["points"]["north"], strict=True)}
+    expected |= {f"sensor.bias[{day}]": offset for day, offset in truth["offsets"].items()}
+    for name, value in expected.items():
+        assert abs(found[name].identified - value) < 4.0 * found[name].std
+        assert found[name].std < 2e-4

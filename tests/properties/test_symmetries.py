@@ -33,7 +33,7 @@ def rank(cell: Cell, names: list[str], rows: int = 600, seed: int = 1) -> int:
     """Returns how many combinations of the named parameters the readings of random configurations depend on."""
     rng = np.random.default_rng(seed)
     joints, target = random_joints(rng, cell.arm, rows), random_targets(rng, cell, rows)
-    if cell.sensor.needs_target:
+    if cell.sensor.aims_at is not None:
         rows_seen = seen(cell, joints, target)
         joints, target = joints[rows_seen], target[rows_seen]
     _, jacobian = cell.linearise(joints, target)

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from boresight.sensing import Readings
-from boresight.sensing.linear import CompiledModel
-from random_cells import random_cell, random_joints, random_targets
+from boresight.sensing.linear import CompiledModel, ReferenceModel, model_of
+from random_cells import SENSORS, mixed_cell, near_readings, random_arm, random_cell
 
 
 def some(rng, cell):
@@ -14,25 +13,29 @@ def some(rng, cell):
     return names[: rng.integers(1, len(names) + 1)]
 
 
-@pytest.mark.parametrize("sensor", ["laser_ranger", "position"])
+@pytest.mark.parametrize("sensor", ["laser_ranger", "position", "plane_contact"])
 @pytest.mark.parametrize("seed", range(12))
-def test_compiled_readings_and_derivatives_equal_numpys(sensor, seed):
-    rng = np.random.default_rng([seed, sensor == "position"])
+def test_compiled_errors_and_derivatives_equal_numpys(sensor, seed):
+    rng = np.random.default_rng([seed, list(SENSORS).index(sensor)])
     cell = random_cell(rng, planes=3, sensor=sensor)
     free = some(rng, cell)
-    columns = [cell.index[name] for name in free]
-    joints, target = random_joints(rng, cell.arm, 60), random_targets(rng, cell, 60)
+    readings = near_readings(rng, cell, 60, 0.02)
     x = rng.normal(size=len(free)) * 0.01
-    corrections = np.zeros(len(cell.parameters))
-    corrections[columns] = x
-    values, jacobian = cell.linearise(joints, target, corrections)
-    readings = Readings(joints, np.zeros_like(values), np.ones_like(values), target, np.arange(60))
-    model = CompiledModel(cell, readings, free)
-    compiled, slopes = model.linearise(x)
-    assert np.array_equal(np.isnan(compiled), np.isnan(values))
-    hit = np.isfinite(values)
-    np.testing.assert_allclose(compiled[hit], values[hit], rtol=1e-10, atol=1e-12)
-    np.testing.assert_allclose(model.predict(x)[hit], values[hit], rtol=1e-10, atol=1e-12)
-    size = 1.0 + np.abs(jacobian).max(axis=2, keepdims=True)
-    assert np.abs((slopes - np.nan_to_num(jacobian)[:, :, columns]) / size)[hit].max(initial=0.0) < 1e-10
-    assert not slopes[~hit].any()
+    compiled, reference = CompiledModel(cell, readings, free), ReferenceModel(cell, readings, free)
+    assert isinstance(model_of(cell, readings, free), CompiledModel)
+    errors, expected = compiled.errors(x), reference.errors(x)
+    assert np.array_equal(np.isnan(errors), np.isnan(expected))
+    hit = np.isfinite(expected)
+    np.testing.assert_allclose(errors[hit], expected[hit], rtol=1e-9, atol=1e-11)
+    slopes, numpys = compiled.slopes(x), reference.slopes(x)
+    size = 1.0 + np.abs(numpys).max(axis=2, keepdims=True)
+    assert np.abs((slopes - numpys) / size).max() < 1e-9
+
+
+def test_cells_that_cannot_be_compiled_are_left_to_numpy():
+    rng = np.random.default_rng(4)
+    mixed = mixed_cell(rng, random_arm(rng, 6))
+    bent = random_cell(rng, sensor="laser_ranger", arm=random_arm(rng, 6).with_harmonics())
+    for cell in (mixed, bent):
+        readings = near_readings(rng, cell, 30, 0.02)
+        assert isinstance(model_of(cell, readings, some(rng, cell)), ReferenceModel)

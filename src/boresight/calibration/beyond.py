@@ -143,7 +143,7 @@ def _held_out(
 ) -> dict[tuple[Term, ...], Float[np.ndarray, "repeats rows"]]:
     """Returns each row's mean squared error, in variances of a value, under fits to the other folds' rows."""
     squared = {each: np.empty((REPEATS, len(near.left))) for each in tries}
-    everything = near.squares()
+    everything, channels = near.squares(), np.sum(np.isfinite(near.std), axis=1)
     for repeat in range(REPEATS):
         fold = _folds(near.joints, seed, repeat)
         for number in range(FOLDS):
@@ -152,7 +152,7 @@ def _held_out(
             for each in tries:
                 step = near.learned(others, each)[0].step
                 errors = near.left[held] - near.jacobian[held][:, :, near.columns(each)] @ step
-                squared[each][repeat, held] = np.mean(errors**2, axis=1)
+                squared[each][repeat, held] = np.sum(errors**2, axis=1) / channels[held]
     return squared
 
 
@@ -173,7 +173,7 @@ def _advantage(first: Float[np.ndarray, "rows"], second: Float[np.ndarray, "rows
 
 def _rms_m(near: Neighbourhood, squared: Float[np.ndarray, "repeats rows"]) -> float:
     """Returns the root mean square of the errors' sizes [m]."""
-    return rms(np.sqrt(squared * np.sum(near.std**2, axis=1)))
+    return rms(np.sqrt(squared * np.sum(np.where(np.isfinite(near.std), near.std, 0.0) ** 2, axis=1)))
 
 
 def _refitted(fit: Fit, near: Neighbourhood, chosen: tuple[Term, ...]) -> tuple[Fit, dict[str, float]]:

@@ -7,11 +7,13 @@ from dataclasses import replace
 import numpy as np
 
 from boresight.calibration.beyond import Beyond, beyond_in_words, go_beyond
+from boresight.calibration.by_sensor import errors_by_sensor
 from boresight.calibration.campaign import Campaign
 from boresight.calibration.estimates import estimates_of
 from boresight.calibration.frames import find_frames
 from boresight.calibration.freedom import freedoms_of
 from boresight.calibration.holdout import by_cross_validation, error_sizes, on_validation_rows, summarise
+from boresight.calibration.jumps import find_jumps
 from boresight.calibration.left_out import left_out, left_out_in_words
 from boresight.calibration.outliers import find_outliers
 from boresight.calibration.problem import Problem
@@ -55,6 +57,8 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
     readings = campaign.readings
     if readings is None or not len(readings):
         raise InputError(f"{campaign.name}: a calibration needs readings; give `observations:` in the campaign")
+    if not readings.measured:
+        raise InputError(f"{campaign.name}: there are configurations but no readings; measure them, then calibrate")
     nominal = find_frames(campaign.cell, readings, campaign.unknown, solver.seed)
     nominal = nominal if campaign.gravity is None else nominal.under(campaign.gravity)
     freedoms = freedoms_of(campaign, nominal)
@@ -74,6 +78,8 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         held_out = by_cross_validation(solution.fit, solver.seed)
     spread = spread_configurations(identified, WORKSPACE_CONFIGURATIONS)
     in_workspace = pose_uncertainty(identified, problem.names, covariance, spread)
+    errors = {"before": problem.errors(np.zeros(len(x))), "after": problem.errors(x)}
+    jumps = find_jumps(solution.fit)
     unseen = tuple(Unseen(each.parameters, each.words) for each in unseen_in_words(found, problem.scale, moves))
     return Result(
         name=campaign.name,
@@ -94,10 +100,11 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         unseen=unseen,
         calibration=_fitted_errors(nominal, identified, readings.chosen(solution.fit.kept)),
         validation=held_out.residuals,
+        by_sensor=errors_by_sensor(identified, readings, solution.fit.kept, errors),
         outliers=find_outliers(solution.fit),
         readings=readings,
-        errors={"before": problem.errors(np.zeros(len(x))), "after": problem.errors(x)},
-        stated_std=float(np.median(readings.std)),
+        errors=errors,
+        stated_std=readings.usual_std,
         model_std=problem.model_std,
         noise=check_noise(solution.fit),
         beyond=beyond,
@@ -113,8 +120,14 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         ),
         in_workspace=in_workspace,
         set_aside=campaign.set_aside,
-        warnings=campaign.warnings + _warnings(solution.fit),
-        notes=campaign.notes + beyond_in_words(beyond) + left_out_in_words(left_out(campaign, nominal, freedoms)),
+        warnings=campaign.warnings + _warnings(solution.fit) + tuple(jump.words for jump in jumps),
+        jumps=jumps,
+        notes=(
+            *campaign.notes,
+            *_notes(campaign, identified, solver),
+            *beyond_in_words(beyond),
+            *left_out_in_words(left_out(campaign, nominal, freedoms)),
+        ),
         inputs=campaign.inputs,
         robot_file=campaign.robot_file,
     )
@@ -130,9 +143,24 @@ def _fitted_errors(nominal: Cell, identified: Cell, rows: Readings) -> Residuals
     return summarise("calibration rows", error_sizes(nominal, rows), error_sizes(identified, rows))
 
 
+def _notes(campaign: Campaign, identified: Cell, solver: Solver) -> tuple[str, ...]:
+    said = []
+    if solver.name != "least-squares" and any(not sensor.readouts for sensor in identified.sensors.values()):
+        said.append(
+            "Evolution ran a thousand times slower than it can, as distances have no compiled form; `--solver "
+            "least-squares` finds the same where the nominal model is near."
+        )
+    if campaign.robot_file is not None and identified.arm.is_bent:
+        said.append(
+            "robot-calibrated.urdf holds the geometry alone, since a URDF has no words for sag and harmonics; "
+            "robot-calibrated.yaml holds all."
+        )
+    return tuple(said)
+
+
 def _warnings(fit: Fit) -> tuple[str, ...]:
     problem = fit.problem
-    values, free = problem.readings.values.size, len(problem.names)
+    values, free = problem.readings.count, len(problem.names)
     said = []
     if values < free:
         said.append(

@@ -69,7 +69,7 @@ class Campaign:
     Attributes:
         name: for titles.
         cell: the nominal cell; frames that are unknown stand at the identity.
-        readings: the rows to calibrate with; None where a campaign is only planned.
+        readings: the rows to calibrate with; None, or without values, where a campaign is only planned.
         validation: rows held out; None to judge by cross-validation.
         freedoms: what to estimate; None frees what the data can see.
         fixed: parameters held at nominal, whatever `freedoms` says.

@@ -13,7 +13,7 @@ from boresight.calibration.result import Estimate
 from boresight.geometry import Frame
 from boresight.inference import sources
 from boresight.sensing import Cell
-from boresight.sensing.cell import FRAME_NUMBERS, SENSOR
+from boresight.sensing.cell import FRAME_NUMBERS
 from boresight.units import UNIT_OF
 
 _TURNS = FRAME_NUMBERS[3:]
@@ -42,12 +42,13 @@ def estimates_of(
     """
     std = dict(zip(problem.names, np.sqrt(np.diag(covariance)), strict=True))
     source = dict(zip(problem.names, sources(np.sqrt(np.diag(covariance)), problem.believed_std), strict=True))
-    for name, frame in (("base", identified.base), ("mount", identified.mount)):
+    frames = {"base": identified.base, **identified.mounts}
+    for name, frame in frames.items():
         std |= _rpy_std(name, frame, problem.names, covariance)
     listed = []
     for parameter in problem.cell.parameters:
         owner = parameter.name.split(".")[0]
-        if owner in ("base", "mount", SENSOR) and parameter.name not in std:
+        if owner in (*frames, *identified.sensors) and parameter.name not in std:
             continue
         if is_further(parameter.name) and parameter.name not in std and not identified.values[parameter.name]:
             continue

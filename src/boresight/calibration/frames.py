@@ -1,4 +1,4 @@
-"""Where the base and the sensor stand when nobody has measured it: found from the data, without a guess.
+"""Where the base, sensors, markers and points stand when nobody has measured it: found from the data, without a guess.
 
 Evolution searches the unknown frames alone, geometry nominal, over every orientation and as far as the
 readings could come from; least squares then finishes. The same search serves every sensor and every
@@ -15,6 +15,7 @@ from boresight.calibration.campaign import Freedom
 from boresight.calibration.problem import MISSED_M, Problem
 from boresight.calibration.robust import fit
 from boresight.errors import InputError
+from boresight.geometry import Plane
 from boresight.inference import listed
 from boresight.search import DifferentialEvolution, Stops, evolve
 from boresight.sensing import Cell, Readings
@@ -36,7 +37,7 @@ def find_frames(cell: Cell, readings: Readings, unknown: frozenset[str], seed: i
     Args:
         cell: the nominal cell, unknown numbers at zero.
         readings: measured values.
-        unknown: the unknown parameters of `base` and `mount`.
+        unknown: the unknown parameters of the base, mounts and points, and unknown offsets.
         seed: of the evolution.
 
     Raises:
@@ -45,8 +46,10 @@ def find_frames(cell: Cell, readings: Readings, unknown: frozenset[str], seed: i
     names = tuple(name for name in cell.index if name in unknown)
     if not names:
         return cell
-    readings = replace(readings, std=np.full(readings.values.shape, _NOISE_M))
+    readings = replace(readings, std=np.where(readings.read, _NOISE_M, np.inf))
     few = readings.chosen(np.unique(np.linspace(0, len(readings) - 1, min(_ROWS, len(readings))).astype(int)))
+    if set(names) <= set(cell.offsets):  # they add to readings: a straight line leads there from anywhere
+        return _settle(cell, readings, names)[0]
     widths = {"angle": np.pi, "length": _span(cell, readings)}
     quantity = {parameter.name: parameter.quantity for parameter in cell.parameters}
     freedoms = tuple(Freedom(name, widths[quantity[name]], None) for name in names)
@@ -68,7 +71,7 @@ def find_frames(cell: Cell, readings: Readings, unknown: frozenset[str], seed: i
         best = candidate if best is None or candidate[1] < best[1] else best
     assert best is not None
     found = best[0]
-    if np.isnan(found.predict(few.joints, few.target)).mean() > 0.5:
+    if np.isnan(found.errors(few)).mean() > 0.5:
         raise InputError(
             f"no placement of {listed(names)} explains the readings: with the best one found, most beams look away "
             "from their planes; check the joint columns, their units and the planes"
@@ -87,5 +90,8 @@ def _settle(cell: Cell, readings: Readings, names: tuple[str, ...]) -> tuple[Cel
 
 def _span(cell: Cell, readings: Readings) -> float:
     """Returns how far [m] an unknown origin may lie: the arm's reach and the farthest thing measured."""
-    offsets = [abs(plane.offset) for plane in cell.targets.values()]
+    offsets = [
+        abs(target.offset) if isinstance(target, Plane) else float(np.linalg.norm(target.xyz))
+        for target in cell.targets.values()
+    ]
     return 1.5 * (cell.arm.reach + float(np.max(np.abs(readings.values))) + max(offsets, default=0.0))

@@ -65,8 +65,7 @@ def _visible(cell: Cell, readings: Readings, frames: tuple[Freedom, ...], fixed:
     links = [name for name in link_candidates(cell.arm) if name not in fixed]
     names = [freedom.parameter for freedom in frames] + links
     columns = [cell.index[name] for name in names]
-    _, jacobian = cell.linearise(readings.joints, readings.target)
-    scaled = jacobian[:, :, columns] * [usual[name] for name in names] / readings.std[:, :, None]
+    scaled = cell.slopes(readings)[:, :, columns] * [usual[name] for name in names] / readings.std[:, :, None]
     flat = np.nan_to_num(scaled.reshape(-1, len(names)), nan=0.0)
     chosen = {names[i] for i in select_visible(flat, list(range(len(names))))}
     return frames + tuple(

@@ -66,17 +66,18 @@ def by_cross_validation(fit: Fit, seed: int) -> HeldOut:
 
 def error_sizes(cell: Cell, rows: Readings) -> Float[np.ndarray, "rows"]:
     """Returns the size [m] of each row's error: of a range, or the length of a position's error vector."""
-    return np.linalg.norm(cell.predict(rows.joints, rows.target) - rows.values, axis=1)
+    return np.linalg.norm(cell.errors(rows), axis=1)
 
 
 def summarise(method: str, before: Float[np.ndarray, "rows"], after: Float[np.ndarray, "rows"]) -> Residuals:
     """Returns RMS and maximum of error sizes over the rows that both models can predict."""
     both = np.isfinite(before) & np.isfinite(after)
     missed = int(np.count_nonzero(~np.isfinite(after)))
-    return Residuals(method, int(np.count_nonzero(both)), missed, _size(before[both]), _size(after[both]))
+    return Residuals(method, int(np.count_nonzero(both)), missed, summary_of(before[both]), summary_of(after[both]))
 
 
-def _size(errors: Float[np.ndarray, "rows"]) -> ErrorSummary:
+def summary_of(errors: Float[np.ndarray, "rows"]) -> ErrorSummary:
+    """Returns RMS, mean and maximum of error sizes; NaN where there are none."""
     if not len(errors):
         return ErrorSummary(float("nan"), float("nan"), float("nan"))
     return ErrorSummary(rms(errors), float(np.mean(errors)), float(np.max(errors)))

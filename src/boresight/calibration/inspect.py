@@ -12,6 +12,7 @@ from boresight.calibration.freedom import freedoms_of
 from boresight.calibration.left_out import LeftOut, left_out
 from boresight.calibration.problem import Problem
 from boresight.errors import InputError
+from boresight.geometry import Frame, rpy_matrix
 from boresight.inference import (
     HardlySeen,
     Observability,
@@ -27,7 +28,8 @@ from boresight.inference import (
 )
 from boresight.inference.posterior import FLAT_PRIOR
 from boresight.sensing import Cell, Readings
-from boresight.synthetic import draw_configurations
+from boresight.sensing.cell import FRAME_NUMBERS
+from boresight.synthetic import draw_configurations, exact_readings
 from boresight.units import UNIT_OF
 
 USUAL_ROWS = 100
@@ -121,8 +123,9 @@ def inspect(campaign: Campaign, *, rows: int | None = None, seed: int = 0) -> In
     Raises:
         InputError: every parameter is fixed, or hardly any configuration sees a target.
     """
-    cell, guessed = campaign.cell, bool(campaign.unknown) and campaign.readings is None
-    if campaign.readings is not None:
+    measured = campaign.readings is not None and campaign.readings.measured
+    cell, guessed = campaign.cell, bool(campaign.unknown - set(campaign.cell.offsets)) and not measured
+    if campaign.readings is not None and measured:
         cell = find_frames(cell, campaign.readings, campaign.unknown, seed)
     drawn = rows is not None or campaign.readings is None
     readings = campaign.readings
@@ -138,15 +141,16 @@ def inspect(campaign: Campaign, *, rows: int | None = None, seed: int = 0) -> In
     found = identify_directions(problem.names, sensitivity, problem.scale)
     moves = movements_of(cell, readings.joints, readings.target, problem.names)
     kinds = [joint.type for joint in cell.arm.joints]
-    missed = int(np.count_nonzero(np.isnan(cell.predict(readings.joints, readings.target))))
+    predicted = cell.predict(readings.joints, readings.target, None, readings.reference, readings.since)
+    missed = int(np.count_nonzero(np.isnan(predicted)))
     return Inspection(
         name=campaign.name,
         seed=seed,
         rows=len(readings),
         drawn=drawn,
         missed=missed,
-        values=readings.values.size,
-        noise_std=float(np.median(readings.std)),
+        values=readings.count,
+        noise_std=readings.usual_std,
         targets=tuple(moves.aimed_at),
         free=problem.names,
         rank=found.rank,
@@ -166,19 +170,31 @@ def inspect(campaign: Campaign, *, rows: int | None = None, seed: int = 0) -> In
 
 def _drawn(cell: Cell, rows: int, seed: int) -> Readings:
     """Returns configurations that see their targets, with what would be read."""
-    joints, target = draw_configurations((cell,), rows, seed)
-    values = cell.predict(joints, target)
-    std = np.full(values.shape, cell.sensor.noise_std / np.sqrt(cell.sensor.repeats))
-    return Readings(joints, values, std, target, np.arange(rows) + 2)
+    return exact_readings(cell, *draw_configurations((cell,), rows, seed))
 
 
 def _arm_rank(cell: Cell, readings: Readings) -> int:
-    """Returns how many combinations of all the arm's, base's and mount's numbers change the readings."""
-    moving = cell.parameters[: len(cell.chain.parameters)]
-    _, jacobian = cell.linearise(readings.joints, readings.target)
-    flat = np.nan_to_num(jacobian[:, :, : len(moving)] / readings.std[:, :, None], nan=0.0).reshape(-1, len(moving))
-    scale = np.array([_FRAME_SCALE[parameter.quantity] for parameter in moving])
-    return identify_directions(tuple(parameter.name for parameter in moving), flat, scale).rank
+    """Returns how many combinations of all the arm's, base's and tool's numbers change the readings.
+
+    Several markers count as one tool of known shape.
+    """
+    slopes = np.nan_to_num(cell.slopes(readings) / readings.std[:, :, None], nan=0.0).reshape(-1, len(cell.parameters))
+    own = {name: [cell.index[f"{name}.{number}"] for number in FRAME_NUMBERS] for name in cell.mounts}
+    on_flange = sum(slopes[:, own[name]] @ _with_flange(frame) for name, frame in cell.mounts.items())
+    shared = [name for name in cell.moving if name.partition(".")[0] not in cell.mounts]
+    flat = np.hstack([slopes[:, [cell.index[name] for name in shared]], on_flange])
+    quantities = [cell.parameters[cell.index[name]].quantity for name in shared] + ["length"] * 3 + ["angle"] * 3
+    names = (*shared, *(f"flange.{number}" for number in FRAME_NUMBERS))
+    return identify_directions(names, flat, np.array([_FRAME_SCALE[quantity] for quantity in quantities])).rank
+
+
+def _with_flange(frame: Frame) -> np.ndarray:
+    """Returns how the six numbers of a mount change when it shifts and turns with the flange."""
+    x, y, z = frame.xyz
+    carried = np.eye(6)
+    carried[:3, 3:] = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
+    carried[3:, 3:] = rpy_matrix(frame.rpy).T
+    return carried
 
 
 def _predictions(problem: Problem, sensitivity: np.ndarray) -> tuple[Prediction, ...]:
@@ -200,7 +216,7 @@ def _predictions(problem: Problem, sensitivity: np.ndarray) -> tuple[Prediction,
 
 def _warnings(problem: Problem, missed: int, guessed: bool) -> tuple[str, ...]:
     said = []
-    values, free = problem.readings.values.size, len(problem.names)
+    values, free = problem.readings.count, len(problem.names)
     if values - missed < free:
         said.append(
             f"{values - missed} readings cannot tell {free} parameters: some directions below are unseen only because "

@@ -75,8 +75,9 @@ def _explained(cell: Cell, readings: Readings, unseen: list[str], free: list[str
     if not unseen:
         return []
     quantity = {parameter.name: parameter.quantity for parameter in cell.parameters}
-    _, full = cell.linearise(readings.joints, readings.target)
-    columns = full[:, :, [cell.index[name] for name in names]] * [USUAL_WITHIN[quantity[name]] for name in names]
+    columns = cell.slopes(readings)[:, :, [cell.index[name] for name in names]] * [
+        USUAL_WITHIN[quantity[name]] for name in names
+    ]
     flat = np.nan_to_num((columns / readings.std[:, :, None]).reshape(-1, len(names)), nan=0.0)
     chosen, rest = flat[:, : len(free)], flat[:, len(free) :]
     largest = float(np.linalg.norm(flat, axis=0).max(initial=0.0))

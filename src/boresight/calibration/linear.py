@@ -42,7 +42,7 @@ class Neighbourhood:
         prior_std: (parameters,) of those without a kind, infinite where nothing is believed.
         jacobian: (rows, channels, parameters).
         left: (rows, channels) measured minus predicted.
-        std: (rows, channels) what they are divided by.
+        std: (rows, channels) what they are divided by; infinite where a row has no such channel.
         joints: (rows, joints).
     """
 
@@ -112,7 +112,7 @@ def neighbourhood_of(fit: Fit, terms: tuple[Term, ...], learn: bool) -> Neighbou
     names = (*problem.names, *added)
     corrections = np.zeros(len(cell.parameters))
     corrections[[cell.index[name] for name in problem.names]] = fit.x
-    values, full = cell.linearise(readings.joints, readings.target, corrections)
+    errors, full = cell.errors(readings, corrections), cell.slopes(readings, corrections)
     jacobian = np.nan_to_num(full[:, :, [cell.index[name] for name in names]] / std[:, :, None], nan=0.0)
     everything = Neighbourhood(
         cell=cell,
@@ -121,7 +121,7 @@ def neighbourhood_of(fit: Fit, terms: tuple[Term, ...], learn: bool) -> Neighbou
         at=np.append(fit.x, np.zeros(len(added))),
         prior_std=np.append(problem.prior_std, np.full(len(added), np.inf)),
         jacobian=jacobian,
-        left=np.nan_to_num((readings.values - values) / std, nan=0.0),
+        left=np.nan_to_num(-errors / std, nan=0.0),
         std=std,
         joints=readings.joints,
     )

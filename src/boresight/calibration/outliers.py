@@ -16,9 +16,9 @@ def find_outliers(fit: Fit) -> tuple[Outlier, ...]:
         fit: the final fit.
     """
     errors = fit.problem.errors(fit.x)
-    rows = np.flatnonzero(~fit.kept)
+    rows, read = np.flatnonzero(~fit.kept), fit.problem.readings.read
     return tuple(
-        Outlier(int(fit.problem.readings.line[row]), _size(-errors[row]), float(fit.ratio[row]))
+        Outlier(int(fit.problem.readings.line[row]), _size(-errors[row][read[row]]), float(fit.ratio[row]))
         for row in rows[np.argsort(-fit.ratio[rows], kind="stable")]
     )
 

@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from boresight.calibration.campaign import Freedom
+from boresight.calibration.plain_cost import PlainCost
 from boresight.inference import posterior_covariance
 from boresight.search import Box
 from boresight.sensing import Cell, Readings
@@ -51,7 +52,10 @@ class Problem:
 
     @cached_property
     def std(self) -> Float[np.ndarray, "rows channels"]:
-        """Standard deviation of each residual [m]: the sensor's noise and the model's own, in squares."""
+        """Standard deviation of each residual [m]: the sensor's noise and the model's own, in squares.
+
+        Infinite where a row's sensor has no such channel, so that it has no say in anything.
+        """
         return np.hypot(self.readings.std, self.model_std)
 
     @cached_property
@@ -101,19 +105,19 @@ class Problem:
         return Box(-self._evolved_half_width, self._evolved_half_width)
 
     @cached_property
-    def cost(self) -> CompiledCost:
+    def cost(self) -> CompiledCost | PlainCost:
         """The compiled cost [m²] of all rows: squared residuals, scaled to the usual noise, and priors."""
         return self._compiled(0.0)
 
     @cached_property
-    def robust_cost(self) -> CompiledCost:
+    def robust_cost(self) -> CompiledCost | PlainCost:
         """The same with residuals beyond `ROBUST_WITHIN` standard deviations counted by size, not by square."""
         return self._compiled((ROBUST_WITHIN * self.usual_std) ** 2)
 
     @property
     def usual_std(self) -> float:
         """The median standard deviation of a residual [m]."""
-        return float(np.median(self.std))
+        return float(np.median(self.std[self.readings.read]))
 
     def corrections(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "all"]:
         """Returns corrections of all the cell's parameters from those of the free ones."""
@@ -123,7 +127,7 @@ class Problem:
 
     def errors(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels"]:
         """Returns predicted minus measured values [m]; NaN where a beam misses."""
-        return self.model.predict(x) - self.readings.values
+        return self.model.errors(x)
 
     def residual(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "residuals"]:
         """Returns errors over their standard deviations, then corrections over theirs (MAP)."""
@@ -159,13 +163,15 @@ class Problem:
         """Returns the same problem on some of the rows."""
         return replace(self, readings=self.readings.chosen(rows), row_weights=self.row_weight[rows])
 
-    def _compiled(self, loss: float) -> CompiledCost:
-        weight = self.usual_std**2 / self.std**2
-        program = compile_program(self.cell, self.names, self.usual_std**2 / self.prior_std**2, loss)
+    def _compiled(self, loss: float) -> CompiledCost | PlainCost:
+        weight, prior = self.usual_std**2 / self.std**2, self.usual_std**2 / self.prior_std**2
+        if not all(sensor.readouts for sensor in self.cell.sensors.values()):
+            return PlainCost(self, weight, prior, loss)
+        program = compile_program(self.cell, self.names, prior, loss)
         return CompiledCost(program, compile_rows(self.cell, self.readings, weight))
 
     def _slopes(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels parameters"]:
-        return self.model.linearise(x)[1]
+        return self.model.slopes(x)
 
     @cached_property
     def _root_weight(self) -> Float[np.ndarray, "rows channels"]:

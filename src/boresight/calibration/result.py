@@ -11,6 +11,7 @@ from jaxtyping import Float
 
 from boresight.calibration.beyond import Beyond
 from boresight.calibration.campaign import RobotFile, SetAside
+from boresight.calibration.jumps import Jump
 from boresight.calibration.robust import NoiseCheck
 from boresight.calibration.solve import Solution, Solver
 from boresight.inference import PoseUncertainty
@@ -71,6 +72,28 @@ class Residuals:
     method: str
     count: int
     missed: int
+    before: ErrorSummary
+    after: ErrorSummary
+
+
+@dataclass(frozen=True, slots=True)
+class SensorErrors:
+    """Errors of what one sensor reads.
+
+    Attributes:
+        sensor: its name.
+        what: range, length, position, orientation or contact.
+        unit: m or rad.
+        rows: how many rows.
+        stated_std: median stated standard deviation of each value.
+        before, after: sizes of the errors, of a vector its length.
+    """
+
+    sensor: str
+    what: str
+    unit: str
+    rows: int
+    stated_std: float
     before: ErrorSummary
     after: ErrorSummary
 
@@ -138,6 +161,7 @@ class Result:
         unseen: directions they do not.
         calibration: errors of the rows that were fitted.
         validation: errors of rows that were not.
+        by_sensor: errors of the rows that were fitted, sensor by sensor, lengths apart from angles.
         outliers: rows that stand out.
         readings: the rows that were fitted.
         errors: (rows, channels) predicted minus measured [m], before and after.
@@ -152,6 +176,7 @@ class Result:
         at_rows: uncertainty of the tool's pose at the validation rows, or the calibration rows if there are none.
         in_workspace: uncertainty of the tool's pose at configurations spread within the joints' limits.
         set_aside: rows that were not used.
+        jumps: blocks of rows that a sensor read differently, and nobody said so.
         warnings: what a person should look at.
         notes: choices a person should know.
         inputs: SHA-256 by file name.
@@ -168,6 +193,7 @@ class Result:
     unseen: tuple[Unseen, ...]
     calibration: Residuals
     validation: Residuals
+    by_sensor: tuple[SensorErrors, ...]
     outliers: tuple[Outlier, ...]
     readings: Readings
     errors: Mapping[str, Float[np.ndarray, "rows channels"]]
@@ -182,6 +208,7 @@ class Result:
     at_rows: PoseUncertainty
     in_workspace: PoseUncertainty
     set_aside: tuple[SetAside, ...]
+    jumps: tuple[Jump, ...]
     warnings: tuple[str, ...]
     notes: tuple[str, ...]
     inputs: Mapping[str, str]

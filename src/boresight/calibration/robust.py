@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 
 from boresight.calibration.concentration import concentrated
 from boresight.calibration.problem import Problem
@@ -98,7 +98,7 @@ def check_noise(fitted: Fit) -> NoiseCheck:
     """Returns the chi-square test of a fit's residuals against the stated noise."""
     problem, kept = fitted.problem, fitted.kept
     scaled = (problem.errors(fitted.x) / problem.readings.std)[kept]
-    seen = np.isfinite(scaled)
+    seen = np.isfinite(scaled) & problem.readings.read[kept]
     decided = float(np.sum(problem.leverage(fitted.x)[kept][seen]))
     return NoiseCheck(float(np.sum(scaled[seen] ** 2)), max(float(np.count_nonzero(seen)) - decided, 1.0))
 
@@ -141,14 +141,14 @@ def continued(problem: Problem, start: Float[np.ndarray, "parameters"]) -> Fit:
 
 def _explained(found: Fit) -> bool:
     """Returns whether a fit leaves nothing to explain, and keeps so many rows that it is no coincidence."""
-    values, free = found.problem.readings.values, len(found.x)
-    spare = np.count_nonzero(found.kept) * values.shape[1] - free
-    return found.problem.model_std == 0.0 and bool(found.kept.all() or spare > 0.5 * (values.size - free))
+    readings, free = found.problem.readings, len(found.x)
+    spare = int(np.sum(readings.channels[found.kept])) - free
+    return found.problem.model_std == 0.0 and bool(found.kept.all() or spare > 0.5 * (readings.count - free))
 
 
 def _other_ways(problem: Problem, start: Float[np.ndarray, "parameters"]) -> Iterator[Fit]:
     """Yields fits that do not begin by believing every row."""
-    if problem.readings.values.size < PLENTY * len(start):
+    if problem.readings.count < PLENTY * len(start):
         for rows, x in concentrated(problem, start):
             agreed = problem.weighed(rows.astype(float), problem.model_std)
             search = refine(agreed, x, TRUSTING)
@@ -208,15 +208,20 @@ def refine(problem: Problem, start: Float[np.ndarray, "parameters"], evaluations
 
 def trimmed_cost(problem: Problem, x: Float[np.ndarray, "parameters"]) -> float:
     """Returns the squared residuals over their variances, no row's counted for more than one left out, and priors."""
-    limit = threshold(problem.readings.values.shape[1])
-    ratio = np.minimum(_sizes(problem.errors(x) / problem.std), limit)
-    return float(problem.readings.values.shape[1] * np.sum(ratio**2) + np.sum((x / problem.prior_std) ** 2))
+    channels = problem.readings.channels
+    ratio = np.minimum(_sizes(problem.errors(x) / problem.std, channels), _thresholds(channels))
+    return float(np.sum(channels * ratio**2) + np.sum((x / problem.prior_std) ** 2))
 
 
 @lru_cache
 def threshold(channels: int) -> float:
     """Returns the root mean square of a row's studentised channels that chance exceeds once in 1 / `CHANCE`."""
     return _quantile(channels, 1.0 - CHANCE)
+
+
+def _thresholds(channels: Int[np.ndarray, "rows"]) -> Float[np.ndarray, "rows"]:
+    """Returns the threshold of each row by its number of channels."""
+    return np.array([0.0, *(threshold(count) for count in range(1, channels.max() + 1))])[channels]
 
 
 def _quantile(channels: int, probability: float) -> float:
@@ -227,14 +232,14 @@ def _quantile(channels: int, probability: float) -> float:
 
 def _weighed(problem: Problem, x: np.ndarray, *, soft: bool) -> tuple[Problem | None, np.ndarray]:
     """Returns the problem with rows weighed anew by their residuals, or None where nothing changes; and their sizes."""
-    errors, channels = problem.errors(x), problem.readings.values.shape[1]
+    errors, read, channels = problem.errors(x), problem.readings.read, problem.readings.channels
     factor = _studentising(problem, x)
-    typical = _typical_excess(errors / factor, problem.readings.std)
-    ratio = _sizes(errors / factor / np.hypot(problem.readings.std, typical))
-    kept = ratio <= threshold(channels)
+    typical = _typical_excess(errors / factor, problem.readings.std, channels)
+    ratio = _sizes(errors / factor / np.hypot(problem.readings.std, typical), channels)
+    kept = ratio <= _thresholds(channels)
     if soft and not kept.all():
         return problem.weighed(1.0 / np.sqrt(1.0 + (ratio / _SOFT) ** 2), typical), ratio
-    seen = np.isfinite(errors) & kept[:, None]
+    seen = np.isfinite(errors) & kept[:, None] & read
     excess = model_std(errors[seen], problem.readings.std[seen], len(x))
     same_rows = np.array_equal(problem.row_weight, kept.astype(float))
     if same_rows and abs(excess - problem.model_std) <= _SETTLED * max(excess, problem.model_std):
@@ -252,24 +257,31 @@ def _studentising(problem: Problem, x: np.ndarray) -> Float[np.ndarray, "rows ch
     return np.sqrt(np.where(fitted, np.maximum(1.0 - leverage, 1e-3), 1.0 + leverage))
 
 
-def _sizes(studentised: Float[np.ndarray, "rows channels"]) -> Float[np.ndarray, "rows"]:
+def _sizes(
+    studentised: Float[np.ndarray, "rows channels"], channels: Int[np.ndarray, "rows"]
+) -> Float[np.ndarray, "rows"]:
     """Returns the root mean square of each row's channels; infinite where a beam misses."""
-    return np.nan_to_num(np.sqrt(np.mean(studentised**2, axis=1)), nan=np.inf)
+    return np.nan_to_num(np.sqrt(np.sum(studentised**2, axis=1) / channels), nan=np.inf)
 
 
-def _typical_excess(errors: Float[np.ndarray, "rows channels"], std: Float[np.ndarray, "rows channels"]) -> float:
+def _typical_excess(
+    errors: Float[np.ndarray, "rows channels"],
+    std: Float[np.ndarray, "rows channels"],
+    channels: Int[np.ndarray, "rows"],
+) -> float:
     """Returns the model's own standard deviation [m] that makes the median row an ordinary one.
 
     Up to half of the rows may be grossly wrong without moving it; 0 where the stated noise suffices.
     """
-    ordinary = _quantile(std.shape[1], 0.5)
+    medians = np.array([1.0, *(_quantile(count, 0.5) for count in range(1, channels.max() + 1))])
+    ordinary = medians[channels]
 
     def surplus(excess: float) -> float:
-        return float(np.median(_sizes(errors / np.hypot(std, excess)))) - ordinary
+        return float(np.median(_sizes(errors / np.hypot(std, excess), channels) / ordinary)) - 1.0
 
-    if surplus(0.0) <= _ORDINARY * ordinary:
+    if surplus(0.0) <= _ORDINARY:
         return 0.0
-    low, high = 0.0, float(np.nanmax(np.abs(errors), initial=1e-12)) / ordinary
+    low, high = 0.0, float(np.nanmax(np.abs(errors), initial=1e-12)) / float(ordinary.min())
     for _ in range(50):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if surplus(middle) > 0.0 else (low, middle)

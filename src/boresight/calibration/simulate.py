@@ -12,6 +12,9 @@ from boresight.synthetic import draw_configurations, perturbed, simulated_readin
 UNKNOWN_WITHIN = {"length": 0.3, "angle": 0.3, "number": 0.3}
 """How far [m, rad] a frame that the campaign calls unknown is put from the identity."""
 
+OFFSETS_WITHIN = 0.03
+"""How far [m] a session's offset is from 0: less than any range."""
+
 
 @dataclass(frozen=True)
 class Rehearsal:
@@ -63,6 +66,7 @@ def _widths(campaign: Campaign) -> dict[str, float]:
     cell = campaign.cell
     quantity = {parameter.name: parameter.quantity for parameter in cell.parameters}
     widths = {name: UNKNOWN_WITHIN[quantity[name]] for name in campaign.unknown}
+    widths |= dict.fromkeys(cell.offsets, OFFSETS_WITHIN)
     if campaign.freedoms is None:
         widths |= {name: 0.2 * USUAL_WITHIN[quantity[name]] for name in link_candidates(cell.arm)}
     else:

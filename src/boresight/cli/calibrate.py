@@ -55,7 +55,7 @@ def run_calibrate(
         disable=as_json or not errors.is_terminal,
     ) as progress:
         task = progress.add_task("evolution", total=generations, best="?", visible=solver != "least-squares")
-        values = campaign.readings.values.size if campaign.readings else 1
+        values = campaign.readings.count if campaign.readings else 1
 
         def show(generation: int, cost: float) -> None:
             progress.update(task, completed=generation, best=f"{1e3 * (cost / values) ** 0.5:.3f}")

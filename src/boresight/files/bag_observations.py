@@ -37,9 +37,13 @@ def read_bag_observations(path: Path, *, cell: Cell, entry: DataEntry, named_by:
     Raises:
         InputError: it cannot be read, or not one row can be made of it.
     """
-    kind = _KINDS.get(cell.sensor.type)
+    types = [sensor.type for sensor in cell.sensors.values()]
+    kind = _KINDS.get(types[0]) if len(types) == 1 and len(cell.mounts) == 1 else None
     if kind is None:
-        raise InputError(f"{named_by}a bag holds readings for {' or '.join(_KINDS)}, not for {cell.sensor.type}")
+        raise InputError(
+            f"{named_by}a bag holds readings of one {' or '.join(_KINDS)} on one mount, not of {', '.join(types)}"
+            f"{' on several markers' if len(cell.mounts) > 1 else ''}; import it to a CSV file first"
+        )
     try:
         recorded = read_recorded(path, entry.name, choice_of(entry), cell.arm.joint_names, kind)
     except InputError as error:
@@ -84,7 +88,7 @@ def remarks_of(recorded: Recorded) -> tuple[str, ...]:
 
 def _scatter(recorded: Recorded, cell: Cell) -> list[str]:
     """A warning where the readings scatter otherwise than the campaign says."""
-    seen, stated = float(np.median(recorded.rows.scatter)), cell.sensor.noise_std
+    seen, stated = float(np.median(recorded.rows.scatter)), next(iter(cell.sensors.values())).noise_std
     if not recorded.scatters:
         return [
             f"{recorded.bag.name}: the readings of a phase do not differ, so the campaign's noise_std counts for them"

@@ -2,32 +2,25 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import cast
 
 from boresight.arm import HARMONICS, SAG, Arm
-from boresight.calibration.campaign import Campaign, Freedom, RobotFile
-from boresight.errors import InputError, did_you_mean
+from boresight.calibration.campaign import Campaign, Freedom
 from boresight.files.bag_observations import read_bag_observations
 from boresight.files.bags.storages import is_bag
-from boresight.files.composing import KeyPath
+from boresight.files.chosen_robots import RobotOf
 from boresight.files.documents import Document, read_document
+from boresight.files.equipment import frame_of, read_aims, read_targets, sensor_of
 from boresight.files.explaining import validated
 from boresight.files.observations import Observations, read_observations
 from boresight.files.patterns import Matcher
-from boresight.files.problems import Problems, listed, shown
-from boresight.files.robots import arm_of, is_urdf
-from boresight.files.schemas import CampaignEntry, DataEntry, FrameEntry
-from boresight.files.urdf import read_urdf
-from boresight.geometry import Frame, Plane
-from boresight.sensing import Cell, LaserRanger, Position, Sensor
+from boresight.files.problems import Problems, listed
+from boresight.files.schemas import CampaignEntry, DataEntry, PointEntry
+from boresight.files.sessions import ONLY, in_sessions, sessions_of, with_sessions
+from boresight.sensing import Cell, Readings
 from boresight.units import Units
-
-SENSORS: dict[str, type[LaserRanger] | type[Position]] = {kind.type: kind for kind in (LaserRanger, Position)}
-"""The kinds of sensor a campaign can name."""
 
 _FRAME_AXES = {"xyz": ("x", "y", "z"), "rpy": ("roll", "pitch", "yaw")}
 
@@ -37,7 +30,7 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
 
     Args:
         path: the campaign.yaml; the files it names are relative to its folder.
-        need_readings: whether a campaign without observations is an error.
+        need_readings: whether a campaign without observations, or with configurations alone, is an error.
 
     Raises:
         InputError: everything that is wrong with the files, as far as it can be told at once.
@@ -53,22 +46,31 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
     for key, named in (("observations", entry.observations), ("validation", entry.validation)):
         if named is not None:
             with problems.gathered():
-                data[key] = _observations(document, key, named, cell, entry.units.value)
+                need = need_readings or key == "validation"
+                data[key] = _observations(document, key, named, cell, entry.units.value, need)
                 inputs[named.name] = data[key].sha256
         elif key == "observations" and need_readings:
             problems.add(f"{document.at(())}there are no readings; expected observations: observations.csv")
     problems.raise_if_any()
+    plain, readings = cell, {key: part.readings for key, part in data.items()}
+    sensors = [name for name, sensor in entry.named_sensors.items() if sensor.offset_per is not None]
+    if sensors:
+        cell = _with_sessions(entry, plain, sensors, readings.get("observations"), problems)
+        readings = {
+            key: in_sessions(part, plain, cell, getattr(entry, key).name, problems) for key, part in readings.items()
+        }
+        problems.raise_if_any()
     return Campaign(
         name=document.path.resolve().parent.name or cell.arm.name,
         cell=cell,
-        readings=data["observations"].readings if "observations" in data else None,
-        validation=data["validation"].readings if "validation" in data else None,
+        readings=readings.get("observations"),
+        validation=readings.get("validation"),
         freedoms=choice.freedoms,
         fixed=choice.fixed | robot.held,
         beyond=None if entry.beyond is None else tuple(entry.beyond),
         gravity=entry.gravity if isinstance(entry.gravity, tuple) else None,
         weightless=entry.gravity == "off",
-        unknown=_unknown("base", entry.base) | _unknown("mount", entry.mount),
+        unknown=_unknown(entry) | set(cell.offsets),
         set_aside=tuple(row for part in data.values() for row in part.set_aside),
         warnings=(*(warning for part in data.values() for warning in part.warnings), *_same_data(entry, data)),
         notes=(*choice.notes, *robot.notes, *(note for part in data.values() for note in part.notes)),
@@ -80,28 +82,51 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
 def cell_of(document: Document, entry: CampaignEntry, robot: RobotOf, problems: Problems) -> Cell:
     """Returns the nominal cell; without an arm nothing else can be judged, so its faults are raised here."""
     units = entry.units.value
-    targets: dict[str, Plane] = {}
-    for name, plane in entry.targets.items():
-        try:
-            targets[name] = Plane.of(plane.normal, plane.offset * units.metres)
-        except ValueError:
-            given = f"{document.at(('targets', name, 'normal'))}got {shown(list(plane.normal))}"
-            problems.add(f"{given}; expected a direction, which is not zero and not beyond all measure")
-    # A cast, since a frozen value has no attributes to set and the protocol, as mypy reads it, has.
-    sensor = cast(Sensor, SENSORS[entry.sensor.type](entry.sensor.noise_std * units.metres, entry.sensor.repeats))
-    if sensor.needs_target and not entry.targets:
-        example = "targets: {deck: {type: plane, normal: [0, 0, 1], offset: -0.15}}"
-        problems.add(
-            f"{document.at(('sensor',))}a {sensor.type} points at a target and there is none; expected {example}"
-        )
+    targets = read_targets(document, entry, problems)
+    sensors = {name: sensor_of(each, units) for name, each in entry.named_sensors.items()}
+    mounts = {name: frame_of(each, units) for name, each in entry.named_mounts.items()}
+    aims = read_aims(document, entry, sensors, mounts, targets, problems)
     arm = None
     with problems.gathered():
         arm = robot.read()
-    for name in sorted(set(arm.joint_names) & set(targets)) if arm else ():
-        problems.add(f"{document.at(('targets', name))}a joint is called {name} too; expected another name")
+    _check_names(document, entry, arm, problems)
     problems.raise_if_any()
     assert arm is not None
-    return _as_asked(Cell(arm, sensor, _frame(entry.base, units), _frame(entry.mount, units), targets), entry)
+    cell = Cell(
+        arm,
+        sensors if entry.sensors is not None else sensors["sensor"],
+        frame_of(entry.base, units),
+        mounts if entry.markers is not None else mounts["mount"],
+        targets,
+        aims if entry.sensors is not None or entry.markers is not None else (),
+    )
+    return _as_asked(cell, entry)
+
+
+def _with_sessions(
+    entry: CampaignEntry, cell: Cell, sensors: list[str], readings: Readings | None, problems: Problems
+) -> Cell:
+    """Returns the cell with an offset for every session of the sensors that ask for them."""
+    if readings is None:
+        return with_sessions(cell, sensors, [ONLY])
+    if readings.session is None:
+        problems.add(
+            f"{entry.observations.name if entry.observations else ''}: there is no column session; expected one, as "
+            f"`offset_per: session` gives {listed(sensors)} an offset for each"
+        )
+        problems.raise_if_any()
+    return with_sessions(cell, sensors, sessions_of(readings, cell, sensors) or [ONLY])
+
+
+def _check_names(document: Document, entry: CampaignEntry, arm: Arm | None, problems: Problems) -> None:
+    """Adds a fault for every name that two things have, since parameters are called after them."""
+    taken = dict.fromkeys(arm.joint_names if arm else (), "a joint")
+    kinds = {"targets": "a target", "markers": "a marker", "sensors": "a sensor"}
+    for key, kind in kinds.items():
+        for name in getattr(entry, key) or ():
+            if name in taken:
+                problems.add(f"{document.at((key, name))}{taken[name]} is called {name} too; expected another name")
+            taken[name] = kind
 
 
 def _as_asked(cell: Cell, entry: CampaignEntry) -> Cell:
@@ -114,66 +139,27 @@ def _as_asked(cell: Cell, entry: CampaignEntry) -> Cell:
     return cell.under(entry.gravity) if isinstance(entry.gravity, tuple) else cell
 
 
-class RobotOf:
-    """The robot that a campaign names: its arm, and, of a URDF, the file and what it cannot hold."""
-
-    def __init__(
-        self, document: Document, entry: CampaignEntry, inputs: dict[str, str], at: KeyPath = ("robot",)
-    ) -> None:
-        self._document, self._choice, self._inputs, self._at = document, entry.robot, inputs, at
-        self.file: RobotFile | None = None
-        self.held: frozenset[str] = frozenset()
-        self.notes: tuple[str, ...] = ()
-
-    def read(self) -> Arm:
-        """Returns the arm; raises an `InputError` where there is none."""
-        name, place = self._choice.urdf or self._choice.file, self._document.at(self._at)
-        if name is None:
-            return _of_catalogue(self._choice.catalogue or "", place)
-        path = self._document.path.parent / name
-        if self._choice.urdf is None and not is_urdf(name):
-            robot = read_document(path, name, place)
-            self._inputs[name] = robot.sha256
-            return arm_of(robot)
-        self.file = read_urdf(path, name, place, self._choice.base, self._choice.tip)
-        self._inputs[name] = hashlib.sha256(self.file.content).hexdigest()
-        chain = self.file.chain
-        if not chain.ends_with_a_fixed_joint:
-            last = chain.joints[-1].name
-            self.held = frozenset(f"{last}.{number}" for number in ("a", "alpha", "beta"))
-            self.notes = (
-                f"{last}.a, .alpha and .beta are held: {chain.tip} is the link that {last} moves, and the URDF has no "
-                "joint behind it to hold their corrections. Errors of the sensor's place are mount's.",
-            )
-        return chain.arm
-
-
-def _observations(document: Document, key: str, named: DataEntry, cell: Cell, units: Units) -> Observations:
+def _observations(
+    document: Document, key: str, named: DataEntry, cell: Cell, units: Units, need_values: bool
+) -> Observations:
     path, place = document.path.parent / named.name, document.at((key,))
     if named.bag is not None or is_bag(path):
         return read_bag_observations(path, cell=cell, entry=named, named_by=place)
-    return read_observations(path, cell=cell, units=units, name=named.name, named_by=place)
+    return read_observations(path, cell=cell, units=units, name=named.name, named_by=place, need_values=need_values)
 
 
-def _of_catalogue(wanted: str, place: str) -> Arm:
-    from boresight.arm import catalogue  # a table of arms that most campaigns do without
-
-    known = catalogue.names()
-    if wanted not in known:
-        near = did_you_mean(wanted[:60], known)
-        raise InputError(f"{place}the catalogue has no arm {shown(wanted)}{near}; expected one of {listed(known)}")
-    return catalogue.load(wanted)
-
-
-def _frame(entry: FrameEntry, units: Units) -> Frame:
-    x, y, z = (value * units.metres for value in entry.xyz or (0.0, 0.0, 0.0))
-    roll, pitch, yaw = (value * units.radians for value in entry.rpy or (0.0, 0.0, 0.0))
-    return Frame((x, y, z), (roll, pitch, yaw))
-
-
-def _unknown(owner: str, entry: FrameEntry) -> frozenset[str]:
-    parts = [part for part in _FRAME_AXES if getattr(entry, part) is None]
-    return frozenset(f"{owner}.{axis}" for part in parts for axis in _FRAME_AXES[part])
+def _unknown(entry: CampaignEntry) -> frozenset[str]:
+    """Returns the parameters that a campaign calls unknown."""
+    owners = {"base": entry.base, **entry.named_mounts}
+    unknown = {
+        f"{owner}.{axis}"
+        for owner, frame in owners.items()
+        for part, axes in _FRAME_AXES.items()
+        if getattr(frame, part) is None
+        for axis in axes
+    }
+    points = (name for name, target in entry.targets.items() if isinstance(target, PointEntry) and not target.position)
+    return frozenset(unknown | {f"{name}.{axis}" for name in points for axis in "xyz"})
 
 
 def _same_data(entry: CampaignEntry, data: dict[str, Observations]) -> list[str]:

@@ -4,17 +4,26 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from boresight.errors import did_you_mean
 from boresight.files.problems import Problems, listed, shown
-from boresight.sensing import Cell
+from boresight.sensing import Cell, Pose, Sensor
+from boresight.sensing.aims import targets_of
 from boresight.units import Units
 
 OTHER_NAMES = {"range": "distance"}
-"""A second name that a channel's column may have."""
+"""A second name that a sensor's column may have."""
 
-IGNORED = ("time", "temperature", "session", "qw", "qx", "qy", "qz")
+STD_ANGLE = "std_angle"
+"""The column of a pose's standard deviation about each axis."""
+
+KEYS = ("sensor", "marker", "target", "session")
+"""Columns of names."""
+
+QUATERNION = ("qw", "qx", "qy", "qz")
+
+IGNORED = ("time", "temperature", *QUATERNION)
 """Columns that may be there and do not enter the model."""
 
 
@@ -24,76 +33,115 @@ class Columns:
 
     Attributes:
         width: cells in a row.
-        names: of the numeric columns, in the order of `places`: joints, channels, then `std` and `repeats`.
+        names: of the numeric columns: joints, values, standard deviations, then `repeats`.
         places: their places in the row.
         scales: the factors to metres and radians.
-        joints, channels, stds: how many of each.
-        repeats: whether the last numeric column is `repeats`.
-        target: the place of the target's name; None where every row has the same target or none.
+        joints: how many of them are joints.
+        values: by sensor the numeric columns it reports, in its order.
+        stds: by sensor the numeric columns of their standard deviations: none, one for all, or one each.
+        std_angle: the numeric column of `std_angle`; None where there is none.
+        repeats: the numeric column of `repeats`; None where there is none.
+        keys: the places in the row of the columns of names that are used.
+        planned: whether there are configurations alone.
     """
 
-    width: int
-    names: tuple[str, ...]
-    places: tuple[int, ...]
-    scales: tuple[float, ...]
-    joints: int
-    channels: int
-    stds: int
-    repeats: bool
-    target: int | None
+    width: int = 1
+    names: tuple[str, ...] = ()
+    places: tuple[int, ...] = ()
+    scales: tuple[float, ...] = ()
+    joints: int = 0
+    values: dict[str, tuple[int, ...]] = field(default_factory=dict)
+    stds: dict[str, tuple[int, ...]] = field(default_factory=dict)
+    std_angle: int | None = None
+    repeats: int | None = None
+    keys: dict[str, int] = field(default_factory=dict)
+    planned: bool = False
+
+    def needed(self, sensor: str, kind: Sensor) -> list[int]:
+        """Returns the numeric columns that a row of a sensor must have."""
+        angle = [self.std_angle] if self.std_angle is not None and isinstance(kind, Pose) else []
+        repeats = [self.repeats] if self.repeats is not None else []
+        return [*range(self.joints), *self.values[sensor], *self.stds[sensor], *angle, *repeats]
 
 
-def read_columns(header: Sequence[str], cell: Cell, units: Units, place: str, problems: Problems) -> Columns:
+def read_columns(
+    header: Sequence[str], cell: Cell, units: Units, place: str, problems: Problems, *, need_values: bool = True
+) -> Columns:
     """Returns the columns that a header names; they make no sense where a problem was added.
 
     Args:
         header: the cells of the first row.
-        cell: the arm and the sensor that the file is about.
+        cell: the arm and the sensors that the file is about.
         units: of the file.
         place: the header's place, as the beginning of a sentence.
         problems: where faults are added.
+        need_values: whether columns of configurations alone, without any of the sensors', are a fault.
     """
     if len(header) == 1 and (";" in header[0] or "\t" in header[0]):
         problems.add(f"{place}the columns are not separated by commas; expected j1,j2,... with decimal points")
-        return Columns(1, (), (), (), 0, 0, 0, False, None)
+        return Columns()
     at = {name: column for column, name in enumerate(header)}
-    channels = _channels(cell, at, place, problems)
-    stds = _stds(cell, channels, at, place, problems)
-    _check_names(header, cell, channels, place, problems)
-    wants_target = cell.sensor.needs_target and "target" in at
-    if cell.sensor.needs_target and "target" not in at and len(cell.targets) > 1:
-        problems.add(
-            f"{place}there is no column target; expected one, to tell which of {listed(cell.targets)} a row is of"
-        )
-    repeats = ("repeats",) if "repeats" in at else ()
-    names = (*cell.arm.joint_names, *channels, *stds, *repeats)
-    angles = [units.radians if joint.type == "revolute" else units.metres for joint in cell.arm.driven]
+    of = {name: _values(cell, sensor, at, place, problems) for name, sensor in cell.sensors.items()}
+    known = tuple(dict.fromkeys(column for columns in of.values() for column in columns))
+    planned = not need_values and bool(known) and not any(column in at for column in known)
+    stds = {name: _stds(columns, at, place, problems) for name, columns in of.items()}
+    _check_names(header, cell, known, () if planned else known, place, problems)
+    angle = STD_ANGLE in at and any(isinstance(sensor, Pose) for sensor in cell.sensors.values())
+    extra = (*((STD_ANGLE,) if angle else ()), *(("repeats",) if "repeats" in at else ()))
+    spread = tuple(dict.fromkeys(column for columns in stds.values() for column in columns))
+    joints = cell.arm.joint_names
+    names = (*joints, *(() if planned else known), *spread, *extra)
+    scale = {joint.name: units.radians if joint.type == "revolute" else units.metres for joint in cell.arm.driven}
+    scale |= dict.fromkeys((*QUATERNION, "repeats"), 1.0) | {STD_ANGLE: units.radians}
+    index = {name: column for column, name in enumerate(names)}
     return Columns(
         width=len(header),
         names=names,
         places=tuple(at.get(name, 0) for name in names),
-        scales=(*angles, *[units.metres] * (len(channels) + len(stds)), *[1.0] * len(repeats)),
-        joints=len(cell.arm.driven),
-        channels=len(channels),
-        stds=len(stds),
-        repeats=bool(repeats),
-        target=at["target"] if wants_target else None,
+        scales=tuple(scale.get(name, units.metres) for name in names),
+        joints=len(joints),
+        values={name: () if planned else tuple(index[c] for c in columns) for name, columns in of.items()},
+        stds={name: tuple(index[c] for c in columns) for name, columns in stds.items()},
+        std_angle=index.get(STD_ANGLE),
+        repeats=index.get("repeats"),
+        keys=_keys(cell, at, place, problems),
+        planned=planned,
     )
 
 
-def _channels(cell: Cell, at: dict[str, int], place: str, problems: Problems) -> tuple[str, ...]:
+def _keys(cell: Cell, at: dict[str, int], place: str, problems: Problems) -> dict[str, int]:
+    """The columns of names that are needed or help, and faults for those that are needed and not there."""
+    choices = {
+        "sensor": tuple(cell.sensors),
+        "marker": max((_markers(cell, name) for name in cell.sensors), key=len),
+        "target": max((targets_of(sensor, cell.targets) for sensor in cell.sensors.values()), key=len),
+    }
+    for key, known in choices.items():
+        if len(known) > 1 and key not in at:
+            names = listed(name for name in known if name)
+            problems.add(f"{place}there is no column {key}; expected one, to tell which of {names} a row is of")
+    used = {"sensor": True, "marker": isinstance(cell.mount, dict), "target": choices["target"] != (None,)}
+    return {key: at[key] for key in KEYS if key in at and used.get(key, True)}
+
+
+def _markers(cell: Cell, sensor: str) -> tuple[str, ...]:
+    """The mounts on which a sensor can be, or at which it can look."""
+    return tuple(dict.fromkeys(aim.mount for aim in cell.aims if aim.sensor == sensor))
+
+
+def _values(cell: Cell, sensor: Sensor, at: dict[str, int], place: str, problems: Problems) -> tuple[str, ...]:
     """The sensor's columns, by the names that this file gives them."""
-    chosen = []
-    for channel in cell.sensor.channels:
-        other = OTHER_NAMES.get(channel, channel)
-        if channel != other and channel in at and other in at:
-            problems.add(f"{place}there are columns {channel} and {other}, which mean the same; expected one of them")
-        chosen.append(other if channel not in at and other in at else channel)
+    chosen, taken = [], {column for each in cell.sensors.values() if each is not sensor for column in each.columns}
+    for column in sensor.columns:
+        other = OTHER_NAMES.get(column, column)
+        if column != other and column in at and other in at and other not in taken:
+            problems.add(f"{place}there are columns {column} and {other}, which mean the same; expected one of them")
+        chosen.append(other if column not in at and other in at else column)
     return tuple(chosen)
 
 
-def _stds(cell: Cell, channels: Sequence[str], at: dict[str, int], place: str, problems: Problems) -> tuple[str, ...]:
-    each = [f"std_{channel}" for channel in channels]
+def _stds(columns: Sequence[str], at: dict[str, int], place: str, problems: Problems) -> tuple[str, ...]:
+    each = [f"std_{column}" for column in columns if column not in QUATERNION]
     given = [name for name in each if name in at]
     if "std" in at and given:
         problems.add(
@@ -106,12 +154,22 @@ def _stds(cell: Cell, channels: Sequence[str], at: dict[str, int], place: str, p
     return ("std",) if "std" in at else tuple(given)
 
 
-def _check_names(header: Sequence[str], cell: Cell, channels: Sequence[str], place: str, problems: Problems) -> None:
+def _check_names(
+    header: Sequence[str],
+    cell: Cell,
+    known_values: Sequence[str],
+    values: Sequence[str],
+    place: str,
+    problems: Problems,
+) -> None:
     joints = cell.arm.joint_names
-    needed = (*joints, *channels)
-    optional = ("target", "std", *(f"std_{channel}" for channel in channels), "repeats", *IGNORED)
-    known = dict.fromkeys((*needed, *(OTHER_NAMES.get(channel, channel) for channel in channels), *optional))
-    for name in sorted(set(joints) & {*channels, *optional}):
+    lengths = [value for value in known_values if value not in QUATERNION]
+    has_pose = any(isinstance(sensor, Pose) for sensor in cell.sensors.values())
+    optional = ("std", *(f"std_{value}" for value in lengths), *((STD_ANGLE,) if has_pose else ()), "repeats", *IGNORED)
+    optional = (*KEYS, *optional)
+    other_names = (OTHER_NAMES.get(value, value) for value in known_values)
+    known = dict.fromkeys((*joints, *known_values, *other_names, *optional))
+    for name in sorted(set(joints) & {*known_values, *optional}):
         problems.add(f"{place}{name} is a joint and a column of its own meaning; call the joint something else")
     counts = Counter(header)
     for column, name in enumerate(header, start=1):
@@ -121,9 +179,16 @@ def _check_names(header: Sequence[str], cell: Cell, channels: Sequence[str], pla
             problems.add(f"{place}there are several columns {shown(name)}; expected one")
         elif name not in known:
             near = "" if problems.full else did_you_mean(name[:60], known)
-            others = f"{listed(needed)} and, if wanted, {listed(optional)}"
+            others = f"{listed((*joints, *known_values))} and, if wanted, {listed(dict.fromkeys(optional))}"
             problems.add(f"{place}unknown column {shown(name)}{near}; expected columns {others}")
-    for name in needed:
+    columns = listed(map(shown, header))
+    if values and not set(values) & set(header) and set(joints) <= set(header):
+        problems.add(
+            f"{place}there are configurations but no readings, no column for {listed(values)}; the columns are "
+            f"{columns}; `boresight inspect` needs no readings, anything else does"
+        )
+        return
+    for name in (*joints, *values):
         if name not in header:
             kind = f"joint {name}" if name in joints else name
-            problems.add(f"{place}there is no column for {kind}; the columns are {listed(map(shown, header))}")
+            problems.add(f"{place}there is no column for {kind}; the columns are {columns}")

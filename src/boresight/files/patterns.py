@@ -9,10 +9,8 @@ from functools import cached_property
 
 from boresight.errors import did_you_mean
 from boresight.files.problems import listed, shown
+from boresight.geometry import Plane
 from boresight.sensing import Cell
-
-FRAMES = ("base", "mount", "sensor")
-"""Owners that a wildcard does not reach: freeing them is a decision of its own."""
 
 _AXES = "xyz"
 _Y = 1
@@ -56,14 +54,21 @@ class Matcher:
         return {
             f"{name}.normal_{_AXES[plane.dropped]}": f"{name}.normal_y"
             for name, plane in self.cell.targets.items()
-            if plane.dropped != _Y
+            if isinstance(plane, Plane) and plane.dropped != _Y
         }
+
+    @cached_property
+    def frames(self) -> tuple[str, ...]:
+        """Owners that a wildcard does not reach: freeing them is a decision of its own."""
+        return ("base", *self.cell.mounts, *self.cell.sensors)
 
     def match(self, pattern: str) -> Match:
         """Returns what a pattern means; no parameters where it means nothing."""
-        direct = [name for name in self.names if _reaches(pattern, name)]
+        direct = [name for name in self.names if self._reaches(pattern, name)]
         replaced = {
-            name: other for name, other in self.stand_ins.items() if _reaches(pattern, name) and other not in direct
+            name: other
+            for name, other in self.stand_ins.items()
+            if self._reaches(pattern, name) and other not in direct
         }
         reached = {*direct, *replaced.values()}
         return Match(tuple(name for name in self.names if name in reached), replaced)
@@ -73,7 +78,7 @@ class Matcher:
         wildcards = dict.fromkeys(f"*.{name.partition('.')[2]}" for name in self._shared)
         near = did_you_mean(pattern[:60], (*self.names, *wildcards) if "*" not in pattern else wildcards)
         owners = dict.fromkeys(name.partition(".")[0] for name in self.names)
-        reach = f"; * does not reach {listed(FRAMES)}, name these in full" if "*" in pattern else ""
+        reach = f"; * does not reach {listed(self.frames)}, name these in full" if "*" in pattern else ""
         examples = listed(list(self._shared)[:3])
         return (
             f"{shown(pattern)} is no parameter{near}; "
@@ -82,11 +87,10 @@ class Matcher:
 
     @property
     def _shared(self) -> Sequence[str]:
-        return [name for name in self.names if name.partition(".")[0] not in FRAMES]
+        return [name for name in self.names if name.partition(".")[0] not in self.frames]
 
-
-def _reaches(pattern: str, name: str) -> bool:
-    owner = name.partition(".")[0]
-    if owner in FRAMES and pattern.partition(".")[0] != owner:
-        return False
-    return fnmatchcase(name, pattern)
+    def _reaches(self, pattern: str, name: str) -> bool:
+        owner = name.partition(".")[0]
+        if owner in self.frames and pattern.partition(".")[0] != owner:
+            return False
+        return pattern == name or fnmatchcase(name, pattern)

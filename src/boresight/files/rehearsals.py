@@ -7,14 +7,17 @@ import io
 import json
 from pathlib import Path
 
+import numpy as np
 from ruamel.yaml import YAML
 
 from boresight.calibration.campaign import Campaign
 from boresight.calibration.simulate import Rehearsal
 from boresight.errors import OutputError
+from boresight.files.columns import QUATERNION
 from boresight.files.robots import dump_robot
 from boresight.files.writing import write_atomically
-from boresight.sensing import Cell, Readings
+from boresight.geometry import matrix_quaternion
+from boresight.sensing import Aim, Cell, Distances, Pose, Readings
 from boresight.units import Units
 
 
@@ -41,8 +44,8 @@ def write_rehearsal(campaign: Campaign, rehearsal: Rehearsal, source: Path, fold
         raise OutputError(f"{folder}: is not empty; nothing is overwritten: name a new folder with -o")
     text, units = _campaign_text(source)
     write_atomically(folder / "robot.yaml", dump_robot(campaign.cell.arm, "the nominal robot of a simulated campaign"))
-    write_atomically(folder / "observations.csv", _readings_csv(campaign.cell, rehearsal.readings, units))
-    write_atomically(folder / "validation.csv", _readings_csv(campaign.cell, rehearsal.validation, units))
+    write_atomically(folder / "observations.csv", _readings_csv(rehearsal.truth, rehearsal.readings, units))
+    write_atomically(folder / "validation.csv", _readings_csv(rehearsal.truth, rehearsal.validation, units))
     write_atomically(folder / "truth.json", _truth_json(rehearsal))
     write_atomically(folder / "campaign.yaml", text)
     return folder / "campaign.yaml"
@@ -59,16 +62,51 @@ def _campaign_text(source: Path) -> tuple[str, Units]:
 
 
 def _readings_csv(cell: Cell, readings: Readings, units: Units) -> str:
+    """Returns an observations file.
+
+    Args:
+        cell: the true cell; of a distance between two configurations the positions at both ends are written, the
+            second as it is and the first on the line between them.
+        readings: what its sensors reported.
+        units: of the file.
+    """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    named = cell.sensor.needs_target
-    writer.writerow([*cell.arm.joint_names, *cell.sensor.channels, *(["target"] if named else [])])
+    columns = tuple(dict.fromkeys(column for sensor in cell.sensors.values() for column in sensor.columns))
+    writer.writerow([*cell.arm.joint_names, *columns, *_key_columns(cell)])
     per_joint = [units.radians if joint.type == "revolute" else units.metres for joint in cell.arm.driven]
-    names = list(cell.targets)
-    for joints, values, target in zip(readings.joints, readings.values, readings.target, strict=True):
-        numbers = [f"{value:.12g}" for value in (*(joints / per_joint), *(values / units.metres))]
-        writer.writerow([*numbers, *([names[target]] if named else [])])
+    others = []
+
+    def write(joints: np.ndarray, aim: Aim, written: dict[str, float]) -> None:
+        numbers = [f"{value:.12g}" for value in joints / per_joint]
+        values = [f"{written[column]:.12g}" if column in written else "" for column in columns]
+        writer.writerow([*numbers, *values, *(getattr(aim, field) or "" for field in _key_columns(cell).values())])
+
+    for row, (joints, place) in enumerate(zip(readings.joints, readings.target, strict=True)):
+        aim = cell.aims[place]
+        sensor, read = cell.sensors[aim.sensor], readings.values[row]
+        if isinstance(sensor, Distances) and readings.since is not None:
+            here, there = cell.poses(np.stack([joints, readings.since[row]]), None, np.repeat(place, 2))[:, :3, 3]
+            others.append((readings.since[row], aim, dict(zip("xyz", there / units.metres, strict=True))))
+            read = there + read[0] * (here - there) / np.linalg.norm(here - there)
+        written = dict(zip(sensor.columns, read / units.metres, strict=False))
+        if isinstance(sensor, Pose) and readings.reference is not None:
+            written |= dict(zip(QUATERNION, matrix_quaternion(readings.reference[row]), strict=True))
+        write(joints, aim, written)
+    for other in others:  # after all first ends, so that reading pairs them again
+        write(*other)
     return text.getvalue()
+
+
+def _key_columns(cell: Cell) -> dict[str, str]:
+    """Returns the columns of names that a file needs, and the part of an aim that each holds."""
+    wanted = {
+        "sensor": ("sensor", len(cell.sensors) > 1),
+        "marker": ("mount", len(cell.mounts) > 1),
+        "target": ("target", any(aim.target is not None for aim in cell.aims)),
+        "session": ("session", any(aim.session is not None for aim in cell.aims)),
+    }
+    return {column: field for column, (field, needed) in wanted.items() if needed}
 
 
 def _truth_json(rehearsal: Rehearsal) -> str:

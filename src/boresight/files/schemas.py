@@ -7,9 +7,22 @@ A description completes the sentence "expected ...". Values that pydantic would 
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, cast
 
-from pydantic import AfterValidator, AllowInfNan, BaseModel, BeforeValidator, ConfigDict, Field, Strict, model_validator
+from pydantic import (
+    AfterValidator,
+    AllowInfNan,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Strict,
+    Tag,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
 from pydantic_core import PydanticCustomError
 
 from boresight.arm.conventions import Convention, JointType
@@ -257,16 +270,34 @@ def robot_choice(value: Any) -> Any:
     return {"file": value} if isinstance(value, str) else value
 
 
+SensorType = Literal["laser_ranger", "draw_wire", "position", "pose", "plane_contact", "distances"]
+
+
 class SensorEntry(Entry):
     """`sensor: {type: laser_ranger, noise_std: 0.0002, repeats: 10}`."""
 
-    type: Literal["laser_ranger", "position"] = Field(description="laser_ranger or position")
+    type: SensorType = Field(description="laser_ranger, draw_wire, position, pose, plane_contact or distances")
     noise_std: Positive = Field(description="the standard deviation of one reading, in the length unit")
+    noise_angle_std: Positive | None = None
     repeats: Annotated[int, Strict(), Field(ge=1, le=10**9)] = 1
+    markers: Annotated[list[str], Field(min_length=1)] | None = None
+    offset_per: Literal["session"] | None = None
+
+    @model_validator(mode="after")
+    def _keys_fit_the_type(self) -> SensorEntry:
+        if (self.type == "pose") != (self.noise_angle_std is not None):
+            raise expected(
+                "noise_angle_std beside noise_std, the standard deviation of one reading about each axis"
+                if self.type == "pose"
+                else f"no noise_angle_std, as a {self.type} reads no orientation"
+            )
+        if self.offset_per is not None and self.type not in ("laser_ranger", "draw_wire"):
+            raise expected(f"no offset_per, as a {self.type} has no offset: only a laser_ranger or draw_wire has")
+        return self
 
 
 class FrameEntry(Entry):
-    """`base` or `mount`; None stands for `unknown`."""
+    """`base`, `mount` or a marker; None stands for `unknown`."""
 
     xyz: KnownTriple = (0.0, 0.0, 0.0)
     rpy: KnownTriple = (0.0, 0.0, 0.0)
@@ -275,9 +306,25 @@ class FrameEntry(Entry):
 class PlaneEntry(Entry):
     """`{type: plane, normal: [0, 1, 4.6], offset: -0.69}`."""
 
-    type: Literal["plane"] = Field(description="plane")
+    type: Literal["plane"] = Field(description="plane or point")
     normal: Triple = Field(description="a list of 3 numbers, a direction at right angles to the plane")
     offset: Number = Field(description="the number f of n·x + f = 0, in the length unit")
+
+
+class PointEntry(Entry):
+    """`{type: point, position: [1, 2, 0]}`; None stands for `unknown`."""
+
+    type: Literal["point"] = Field(description="point")
+    position: KnownTriple = Field(description="a list of 3 numbers, or unknown")
+
+
+def _target_kind(value: Any) -> str:
+    return "point" if isinstance(value, dict) and value.get("type") == "point" else "plane"
+
+
+TargetEntry = Annotated[
+    Annotated[PlaneEntry, Tag("plane")] | Annotated[PointEntry, Tag("point")], Discriminator(_target_kind)
+]
 
 
 class DataEntry(Entry):
@@ -336,13 +383,42 @@ class CampaignEntry(Entry):
 
     robot: Annotated[RobotChoice, BeforeValidator(robot_choice)] = Field(description=_ROBOTS)
     units: UnitsEntry = UnitsEntry()
-    sensor: SensorEntry = Field(description="a block such as {type: laser_ranger, noise_std: 0.0002}")
-    mount: FrameEntry = FrameEntry()
+    sensors: Annotated[dict[Name, SensorEntry], Field(min_length=1)] | None = None
+    sensor: SensorEntry | None = Field(default=None, validate_default=True)
+    markers: Annotated[dict[Name, FrameEntry], Field(min_length=1)] | None = None
+    mount: FrameEntry | None = None
     base: FrameEntry = FrameEntry()
-    targets: dict[Name, PlaneEntry] = {}
+    targets: dict[Name, TargetEntry] = {}
     observations: Annotated[DataEntry, BeforeValidator(_data_entry)] | None = None
     validation: Annotated[DataEntry, BeforeValidator(_data_entry)] | None = None
     estimate: list[FreedomEntry] | None = None
     fixed: list[str] = []
     gravity: Gravity = "level"
     beyond: Annotated[list[Term] | None, BeforeValidator(_beyond)] = None
+
+    @field_validator("sensor")
+    @classmethod
+    def _one_sensor_or_several(cls, sensor: SensorEntry | None, others: ValidationInfo) -> SensorEntry | None:
+        several = others.data.get("sensors", ())  # not there where they have faults of their own
+        if sensor is None and several is None:
+            raise expected("sensor, a block such as {type: laser_ranger, noise_std: 0.0002}, or sensors by name")
+        if sensor is not None and several:
+            raise expected("either sensor, or sensors by name")
+        return sensor
+
+    @field_validator("mount")
+    @classmethod
+    def _one_mount_or_several(cls, mount: FrameEntry | None, others: ValidationInfo) -> FrameEntry | None:
+        if mount is not None and others.data.get("markers"):
+            raise expected("either mount, or markers by name")
+        return mount
+
+    @property
+    def named_sensors(self) -> dict[str, SensorEntry]:
+        """The sensors by name; the only one is called `sensor`."""
+        return self.sensors or {"sensor": cast(SensorEntry, self.sensor)}
+
+    @property
+    def named_mounts(self) -> dict[str, FrameEntry]:
+        """The places on the flange by name; the only one is called `mount`."""
+        return self.markers or {"mount": self.mount or FrameEntry()}

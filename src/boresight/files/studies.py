@@ -11,7 +11,8 @@ from typing import Any
 from boresight.calibration.campaign import Campaign, Freedom
 from boresight.calibration.freedom import USUAL_WITHIN, link_candidates
 from boresight.errors import InputError, did_you_mean
-from boresight.files.campaigns import Choice, RobotOf, cell_of, load_campaign
+from boresight.files.campaigns import Choice, cell_of, load_campaign
+from boresight.files.chosen_robots import RobotOf
 from boresight.files.composing import KeyPath
 from boresight.files.documents import Document, read_document
 from boresight.files.explaining import validated
@@ -25,6 +26,9 @@ from boresight.studies.grid import AXES
 
 USUAL_ERRORS = 0.2
 """Errors are this share of `USUAL_WITHIN` where a study says nothing about them: 0.01 rad and 4 mm."""
+
+STUDIED = ("laser_ranger", "position")
+"""Sensors that a study simulates."""
 
 MOST_POINTS = 10_000
 """More than anyone looks at."""
@@ -65,7 +69,7 @@ def _benches(document: Document, entry: StudyEntry, problems: Problems) -> tuple
     """Returns what is calibrated, by the robot's name, and what the sensor says of noise and repeats."""
     if entry.campaign is not None:
         bench = _bench_of_campaign(document, entry, problems)
-        sensor = bench.cell.sensor
+        sensor = next(iter(bench.cell.sensors.values()))
         return {bench.cell.arm.name: bench}, {"noise_std": sensor.noise_std, "repeats": sensor.repeats}
     for owner in ("base", "mount"):
         if None in (getattr(entry, owner).xyz, getattr(entry, owner).rpy):
@@ -124,6 +128,12 @@ def _bench_of_campaign(document: Document, entry: StudyEntry, problems: Problems
         raise InputError(
             f"{place}{listed(sorted(campaign.unknown))} are unknown there; a study simulates the cell, so it must "
             "know its frames: calibrate first, or write down about where they are"
+        )
+    types = [sensor.type for sensor in campaign.cell.sensors.values()]
+    if len(types) > 1 or types[0] not in STUDIED or len(campaign.cell.mounts) > 1:
+        raise InputError(
+            f"{place}it has {listed(types)} on {listed(campaign.cell.mounts)}; expected one sensor on one mount, "
+            f"{' or '.join(STUDIED)}"
         )
     held = _fixed_in_all(document, ("fixed",), tuple(entry.fixed), {"": Bench(campaign.cell, ())}, problems)
     fixed = campaign.fixed.union(held.names)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import sys
 from array import array
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -12,9 +13,10 @@ from operator import itemgetter
 import numpy as np
 from jaxtyping import Float, Int
 
-from boresight.errors import InputError, did_you_mean
-from boresight.files.columns import Columns, read_columns
-from boresight.files.problems import Problems, listed, printable, shown
+from boresight.errors import InputError
+from boresight.files.aiming import AimsByName
+from boresight.files.columns import KEYS, Columns, read_columns
+from boresight.files.problems import Problems, printable, shown
 from boresight.files.schemas import LARGEST
 from boresight.files.sources import Source
 from boresight.sensing import Cell
@@ -28,7 +30,8 @@ class Table:
     Attributes:
         columns: what they mean.
         numbers: (rows, numeric columns).
-        target: (rows,) index of the target; -1 where the cell is empty.
+        target: (rows,) index of the aim; -1 where a name that it needs is empty.
+        session: (rows,) name of the session, "" where there is none; None without such a column.
         line: (rows,) line in the file.
         empty: names of the empty cells, by line.
     """
@@ -36,56 +39,64 @@ class Table:
     columns: Columns
     numbers: Float[np.ndarray, "rows columns"]
     target: Int[np.ndarray, " rows"]
+    session: np.ndarray | None
     line: Int[np.ndarray, " rows"]
     empty: dict[int, list[str]]
 
-    def reason(self, row: int) -> str:
-        """Returns why a row cannot be used."""
+    def reason(self, row: int, needed: Sequence[int]) -> str:
+        """Returns why a row, which needs some of the numeric columns, cannot be used."""
         columns, numbers = self.columns, self.numbers[row]
         empty = self.empty.get(int(self.line[row]), [])
         reasons = [
-            f"{name} is empty" if name in empty else f"{name} is {number:g}"
-            for name, number in zip(columns.names, numbers, strict=True)
-            if not abs(number) <= LARGEST
+            f"{columns.names[column]} is empty"
+            if columns.names[column] in empty
+            else f"{columns.names[column]} is {numbers[column]:g}"
+            for column in needed
+            if not abs(numbers[column]) <= LARGEST
         ]
-        reasons += ["target is empty"] if self.target[row] < 0 else []
+        reasons += [f"{name} is empty" for name in KEYS if name in empty]
         if not reasons:
-            value = numbers[columns.joints]
-            reasons = [f"{columns.names[columns.joints]} is {value:g}, and a range is above 0"]
+            value = needed[columns.joints]
+            reasons = [f"{columns.names[value]} is {numbers[value]:g}, and a range is above 0"]
         return "; ".join(reasons)
 
 
-def read_table(source: Source, cell: Cell, units: Units, problems: Problems) -> Table:
+def read_table(source: Source, cell: Cell, units: Units, problems: Problems, *, need_values: bool = True) -> Table:
     """Returns the numbers of an observations file; they make no sense where a problem was added.
 
     Args:
         source: the file.
-        cell: the arm, the sensor and the targets that it is about.
+        cell: the arm, the sensors and the targets that it is about.
         units: the units it is written in.
         problems: where faults are added.
+        need_values: whether configurations alone are a fault.
     """
     lines = rows_of_cells(source)
     line, header = next(lines, (1, []))
     if not header:
         raise InputError(f"{source.name}: the file is empty; expected a row of column names and then readings")
-    columns = read_columns([name.strip() for name in header], cell, units, f"{source.name}, line {line}: ", problems)
+    names = [name.strip() for name in header]
+    columns = read_columns(names, cell, units, f"{source.name}, line {line}: ", problems, need_values=need_values)
     problems.raise_if_any()
-    place_of = {name: place for place, name in enumerate(cell.targets)}
+    aims = AimsByName(cell, tuple(key for key in columns.keys if key != "session"))
+    keys = [columns.keys[key] for key in aims.keys]
+    session_at = columns.keys.get("session")
     numeric = itemgetter(*columns.places)
     # Flat arrays of machine numbers: a million rows of Python floats would not fit in the memory they deserve.
     numbers, target, line_numbers = array("d"), array("q"), array("q")
+    sessions: list[str] = []
     empty: dict[int, list[str]] = {}
     for line, cells in lines:
         if len(cells) != columns.width:
             problems.add(f"{source.name}, line {line}: {len(cells)} cells; expected {columns.width}, as in the header")
             continue
-        if columns.target is not None:
-            given = cells[columns.target].strip()
-            if given and given not in place_of:
-                near = "" if problems.full else did_you_mean(given[:60], place_of)
-                where = f"{source.name}, line {line}: "
-                problems.add(f"{where}there is no target {shown(given)}{near}; the targets are {listed(place_of)}")
-            target.append(place_of.get(given, -1))
+        given = tuple([cells[key].strip() for key in keys])
+        aim = aims.place(given, f"{source.name}, line {line}: ", problems)
+        if aim < 0:
+            empty.setdefault(line, []).extend(aims.empty(given))
+        target.append(aim)
+        if session_at is not None:
+            sessions.append(sys.intern(cells[session_at].strip()))
         given_numbers = numeric(cells)
         try:
             if "_" in "".join(given_numbers):  # float() takes 1_000 for a thousand
@@ -99,7 +110,8 @@ def read_table(source: Source, cell: Cell, units: Units, problems: Problems) -> 
     return Table(
         columns,
         np.array(numbers, dtype=float).reshape(count, len(columns.names)),
-        np.array(target, dtype=np.int64) if columns.target is not None else np.zeros(count, dtype=np.int64),
+        np.array(target, dtype=np.int64),
+        np.array(sessions, dtype=object) if session_at is not None else None,
         np.array(line_numbers, dtype=np.int64),
         empty,
     )

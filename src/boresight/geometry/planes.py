@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from jaxtyping import Float
 
+from boresight.units import Quantity
+
 FLAT = 0.2
 """Below this |n_y|, n_y is kept and the largest of n_x and n_z follows from |n| = 1 instead; the paper's plane
 has 0.212. A small component cannot follow: errors of the others would be magnified by its inverse."""
 
 _STEEPEST = 1e-3
+
+_AXES = "xyz"
 
 
 @dataclass(frozen=True)
@@ -52,6 +57,22 @@ class Plane:
         """The two components of the normal that can be corrected."""
         first, second = (axis for axis in range(3) if axis != self.dropped)
         return first, second
+
+    @property
+    def numbers(self) -> tuple[tuple[str, Quantity], ...]:
+        """The names of the three numbers that can be corrected, and what they measure."""
+        first, second = (_AXES[axis] for axis in self.free_components)
+        return (f"normal_{first}", "number"), (f"normal_{second}", "number"), ("offset", "length")
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The plane's four numbers by name, the offset in m."""
+        return {f"normal_{axis}": n for axis, n in zip(_AXES, self.normal, strict=True)} | {"offset": self.offset}
+
+    def corrected(self, corrections: Sequence[float]) -> Plane:
+        """Returns the plane with corrections added, in the order of `numbers` (paper, eq. 19)."""
+        first, second, offset = (float(correction) for correction in corrections)
+        return self.moved((first, second), offset)
 
     def moved(self, normal: tuple[float, float], offset: float) -> Plane:
         """Returns the plane with its two free components and its offset [m] corrected (paper, eq. 19)."""

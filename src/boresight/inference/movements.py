@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from boresight.geometry import Plane
-from boresight.sensing import Cell
+from boresight.geometry import Plane, Point
+from boresight.sensing import Cell, Target
 from boresight.units import Quantity
 
 _ROWS = 300
@@ -26,8 +26,12 @@ class Movements:
             parameter, in the world; zero for a target's.
         of_target: for each parameter the target it belongs to, or "".
         poses: (rows, 4, 4) `T_world_sensor`.
-        aimed: (rows,) index of each row's target.
-        targets: the targets by name; empty where the sensor needs none.
+        aimed: (rows,) index of each row's target among `targets`; -1 where it has none.
+        mounted: (rows,) index of each row's mount.
+        mounts: their names.
+        targets: the targets that some row aims at, by name.
+        sensors: by mount the type of a sensor there.
+        point_names: the targets of the cell that are points, aimed at or not.
         base: `T_world_base`.
         first_axis: direction of the first joint's axis in the world.
         values: how many values are read in all.
@@ -39,7 +43,11 @@ class Movements:
     of_target: tuple[str, ...]
     poses: Float[np.ndarray, "rows 4 4"]
     aimed: Int[np.ndarray, "rows"]
-    targets: dict[str, Plane]
+    mounted: Int[np.ndarray, "rows"]
+    mounts: tuple[str, ...]
+    targets: dict[str, Target]
+    sensors: dict[str, str]
+    point_names: frozenset[str]
     base: Float[np.ndarray, "4 4"]
     first_axis: Float[np.ndarray, "3"]
     values: int
@@ -47,8 +55,17 @@ class Movements:
     @property
     def aimed_at(self) -> list[str]:
         """The targets that some row aims at."""
-        used = set(self.aimed.tolist())
-        return [name for place, name in enumerate(self.targets) if place in used]
+        return list(self.targets)
+
+    @property
+    def planes(self) -> dict[str, Plane]:
+        """The planes among them."""
+        return {name: target for name, target in self.targets.items() if isinstance(target, Plane)}
+
+    @property
+    def points(self) -> dict[str, Point]:
+        """The points among them."""
+        return {name: target for name, target in self.targets.items() if isinstance(target, Point)}
 
     @property
     def too_few(self) -> bool:
@@ -68,13 +85,13 @@ def movements_of(
     Args:
         cell: the cell.
         joints: configurations [rad or m].
-        target: for each row the index of its target.
+        target: for each row the index of its aim.
         names: parameters of interest.
         corrections: added to the nominal values, in the order of the cell's parameters; none by default.
     """
     some = np.unique(np.linspace(0, len(joints) - 1, min(_ROWS, len(joints))).astype(int))
-    moving = len(cell.chain.parameters)
-    motion = cell.chain.linearise(joints[some], None if corrections is None else corrections[:moving])
+    moving = len(cell.moving)
+    motion = cell.linearised_poses(joints[some], target[some], corrections)
     columns = [cell.index[name] for name in names]
     twists = np.zeros((len(some), len(names), 6))
     for place, column in enumerate(columns):
@@ -86,15 +103,22 @@ def movements_of(
     targets = cell.corrected({name: c for name, c in by_name.items() if cell.index[name] >= moving}).targets
     first = cell.arm.joints[0]
     axis = motion.twists[0, cell.index[f"{first.name}.d"], :3]  # d shifts along the axis, whichever way the joint moves
+    aims = [cell.aims[place] for place in target[some]]
+    used = [name for name in targets if any(aim.target == name for aim in aims)]
+    widths = np.array([len(cell.sensors[aim.sensor].channels) for aim in cell.aims])
     return Movements(
         names,
         tuple(cell.parameters[column].quantity for column in columns),
         twists,
-        tuple("" if column < moving else name.rsplit(".", 1)[0] for name, column in zip(names, columns, strict=True)),
+        tuple("" if column < moving else name.partition(".")[0] for name, column in zip(names, columns, strict=True)),
         motion.poses,
-        target[some],
-        dict(targets) if cell.sensor.needs_target else {},
+        np.array([used.index(aim.target) if aim.target in used else -1 for aim in aims]),
+        np.array([list(cell.mounts).index(aim.mount) for aim in aims]),
+        tuple(cell.mounts),
+        {name: targets[name] for name in used},
+        {aim.mount: cell.sensors[aim.sensor].type for aim in aims},
+        frozenset(name for name, target in targets.items() if isinstance(target, Point)),
         cell.base.matrix,
         axis,
-        len(joints) * len(cell.sensor.channels),
+        int(np.sum(widths[target])),
     )

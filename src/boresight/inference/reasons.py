@@ -7,6 +7,7 @@ from jaxtyping import Float
 
 from boresight.inference.movements import Movements
 from boresight.inference.symmetries import Kind, Symmetry
+from boresight.sensing.cell import FRAME_NUMBERS
 
 _SQUARE = np.radians(0.5)
 """An axis this close to a plane's normal is called perpendicular to the plane."""
@@ -18,18 +19,20 @@ def opening(symmetry: Symmetry, moves: Movements | None) -> str:
         return ""
     owners = {moves.of_target[i] for i in np.flatnonzero(symmetry.direction) if moves.of_target[i]}
     if symmetry.kind == "gliding":
-        return f"moving them together only slides the sensor along {_planes(moves)}"
+        return f"moving them together only {_glides(moves, 'slides')}"
     if symmetry.kind == "base":
         verb = symmetry.motion.split()[0] if symmetry.motion else "moving"
         motion = symmetry.motion.replace(verb, f"{verb} the base", 1) if symmetry.motion else "moving the base"
         if owners:
-            return f"{motion} while {verb} {_named(sorted(owners))} with it changes no reading"
-        return f"{motion} changes no reading" + ("" if "`" in motion else f", as {_planes(moves)} {_stay(moves)}")
+            return f"{motion} while {verb} {_named(sorted(owners), moves)} with it changes no reading"
+        if not moves.targets:
+            return f"{motion} changes no reading, as distances do not depend on where the arm stands"
+        return f"{motion} changes no reading" + ("" if "`" in motion else f", as {_targets(moves)} {_stay(moves)}")
     if symmetry.kind == "sensor":
-        if symmetry.motion == "turning about z" and moves.targets:
+        if symmetry.motion == "turning about z" and _has_beam(symmetry, moves):
             return "spin about the beam is not seen"
-        motion = symmetry.motion or "moving"
-        return f"{motion.replace(' ', ' the sensor ', 1) if ' ' in motion else 'moving the sensor'} changes no reading"
+        motion, sensor = symmetry.motion or "moving", _mounted(symmetry, moves)
+        return f"{motion.replace(' ', f' {sensor} ', 1) if ' ' in motion else f'moving {sensor}'} changes no reading"
     return ""
 
 
@@ -46,19 +49,18 @@ def group_reason(
     they = "it" if len(names) == 1 else "they"
     owners = {moves.of_target[int(np.argmax(np.abs(s.direction)))] for s in symmetries} - {""}
     if kind == "still" and owners:
-        return f", because {_unused(owners)}"
+        return f", because {_unused(owners, moves)}"
     if kind == "gliding":
-        slides = f"{they} only {'moves' if they == 'it' else 'move'} the sensor along"
         if reason := _perpendicular(moves):
-            return f", because {reason}: {slides} it"
-        return f": {slides} {_planes(moves)}"
+            return f", because {reason}: {they} only {'moves' if they == 'it' else 'move'} the sensor along it"
+        return f": {they} only {_glides(moves, 'moves' if they == 'it' else 'move')}"
     if kind == "base":
         return f": {they} only {'moves' if they == 'it' else 'move'} the whole arm"
     if kind == "sensor":
-        spun = [symmetry.motion == "turning about z" for symmetry in symmetries]
-        if moves.targets and all(spun):
+        if all(symmetry.motion == "turning about z" and _has_beam(symmetry, moves) for symmetry in symmetries):
             return ": spin about the beam is not seen"
-        return f": {they} only {'turns' if they == 'it' else 'turn'} the sensor about its own origin"
+        sensor = _mounted(symmetries[0], moves) if len({symmetry.mount for symmetry in symmetries}) == 1 else "a marker"
+        return f": {they} only {'turns' if they == 'it' else 'turn'} {sensor} about its own origin"
     return ""
 
 
@@ -81,16 +83,23 @@ def mend(kind: Kind, names: tuple[str, ...], moves: Movements | None, motion: st
     if kind == "still":
         return f"fix one of them, say `fixed: [{_least_physical(names)}]`"
     if kind == "gliding":
-        plane = _planes(moves) if moves else "the plane"
-        which = "it" if len(names) == 1 else "them"
-        return f"measure against one more plane, not parallel to {plane}, or fix {which}, as these ranges need not know"
+        fixed = f"or fix {'it' if len(names) == 1 else 'them'}, as these readings need not know"
+        if moves is not None and not moves.planes:
+            return f"measure to more points, three that are not in line, {fixed}"
+        plane = _targets(moves) if moves else "the plane"
+        return f"measure against one more plane, not parallel to {plane}, {fixed}"
     if kind == "base":
         if any(_is_target(name, moves) for name in names):
             known = " (a known azimuth)" if motion == "turning about z" else ""
+            what = "plane" if moves is None or moves.planes else "point"
             return (
-                f"fix {fixable}, which then defines where the base is; or survey the plane{known} and fix its "
+                f"fix {fixable}, which then defines where the base is; or survey the {what}{known} and fix its "
                 "parameters, or add a surveyed one; or give one of them a tighter `prior_std`"
             )
+        if moves is not None and not moves.targets:
+            return f"fix {fixable}; only positions in a known frame would show it"
+        if moves is not None and moves.points and not moves.planes:
+            return f"measure to one more point that is not in line with these, or fix {fixable}"
         return f"measure against one more plane that is not parallel to these, or fix {fixable}"
     if kind == "sensor":
         return f"fix {_least_physical(names)}; if the tool needs it, measure it by other means"
@@ -103,35 +112,63 @@ def _is_target(name: str, moves: Movements | None) -> bool:
 
 def _least_physical(names: tuple[str, ...]) -> str:
     """Returns the parameter to give up first: a frame's, then a beta, then the last named."""
-    for wanted in (lambda n: n.startswith(("mount.", "base.")), lambda n: n.endswith(".beta")):
+    frame = tuple(f".{number}" for number in FRAME_NUMBERS)
+    for wanted in (lambda n: n.endswith(frame), lambda n: n.endswith(".beta")):
         if chosen := [name for name in names if wanted(name)]:
             return chosen[-1]
     return names[-1]
 
 
-def _planes(moves: Movements) -> str:
-    return _named(moves.aimed_at) if moves.targets else "its target"
+def _glides(moves: Movements, verb: str) -> str:
+    """Returns how the sensor moves where each row's target stays where it is, after a verb: "slides the sensor ..."."""
+    if moves.planes and not moves.points:
+        return f"{verb} the sensor along {_targets(moves)}"
+    if moves.points and not moves.planes:
+        return f"{'turns' if verb == 'slides' else verb} the sensor about {_targets(moves)}"
+    return f"{verb} the sensor along or about {_targets(moves)}"
 
 
-def _named(targets: list[str]) -> str:
-    if len(targets) == 1:
-        return f"plane `{targets[0]}`"
-    return f"planes {', '.join(f'`{name}`' for name in targets[:-1])} and `{targets[-1]}`"
+def _has_beam(symmetry: Symmetry, moves: Movements) -> bool:
+    """Returns whether the mount that moves carries a sensor with a beam."""
+    return moves.sensors.get(symmetry.mount) == "laser_ranger"
+
+
+def _mounted(symmetry: Symmetry, moves: Movements) -> str:
+    return "the sensor" if len(moves.mounts) == 1 else f"`{symmetry.mount}`"
+
+
+def _targets(moves: Movements) -> str:
+    return _named(moves.aimed_at, moves) if moves.targets else "its target"
+
+
+def _named(targets: list[str], moves: Movements) -> str:
+    """Returns targets as people list them: "planes `deck` and `wall` and point `anchor`"."""
+    points = [name for name in targets if name in moves.point_names]
+    groups = (("plane", [name for name in targets if name not in points]), ("point", points))
+    return " and ".join(_group(kind, names) for kind, names in groups if names)
+
+
+def _group(kind: str, names: list[str]) -> str:
+    if len(names) == 1:
+        return f"{kind} `{names[0]}`"
+    return f"{kind}s {', '.join(f'`{name}`' for name in names[:-1])} and `{names[-1]}`"
 
 
 def _stay(moves: Movements) -> str:
     return "stays where it is" if len(moves.aimed_at) == 1 else "stay where they are"
 
 
-def _unused(owners: set[str]) -> str:
-    return f"no row aims at {_named(sorted(owners))}"
+def _unused(owners: set[str], moves: Movements) -> str:
+    return f"no row aims at {_named(sorted(owners), moves)}"
 
 
 def _perpendicular(moves: Movements) -> str:
     """Returns that the planes are perpendicular to the first axis, or "" where they are not."""
     axis = moves.first_axis
-    for name in moves.aimed_at:
-        if np.linalg.norm(np.cross(axis, moves.targets[name].normal)) > np.sin(_SQUARE):
+    if moves.points or not moves.planes:
+        return ""
+    for plane in moves.planes.values():
+        if np.linalg.norm(np.cross(axis, plane.normal)) > np.sin(_SQUARE):
             return ""
     verb = "is" if len(moves.aimed_at) == 1 else "are"
-    return f"{_planes(moves)} {verb} perpendicular to the first axis" if moves.targets else ""
+    return f"{_targets(moves)} {verb} perpendicular to the first axis"

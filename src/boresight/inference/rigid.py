@@ -6,6 +6,7 @@ import itertools
 
 import numpy as np
 
+from boresight.geometry import Plane, Point
 from boresight.inference.movements import Movements
 
 AXES = {
@@ -25,14 +26,27 @@ def base_motions(moves: Movements) -> dict[str, np.ndarray]:
         return np.concatenate([v + np.cross(origin, w), w])
 
     named = {name: in_world(twist) for name, twist in AXES.items()}
-    normals = {name: np.asarray(moves.targets[name].normal) for name in moves.aimed_at}
+    normals = {name: np.asarray(plane.normal) for name, plane in moves.planes.items()}
     for name, normal in normals.items():
         named[f"turning about the normal of plane `{name}`"] = np.concatenate([np.zeros(3), normal])
         _add_shift(named, f"along plane `{name}`, square to z,", np.cross(normal, np.eye(3)[2]))
         _add_shift(named, f"along plane `{name}`, towards z,", np.cross(normal, np.cross(normal, np.eye(3)[2])))
     for (first, a), (second, b) in itertools.combinations(normals.items(), 2):
         _add_shift(named, f"along the line where planes `{first}` and `{second}` meet", np.cross(a, b))
+    points = {name: np.asarray(point.xyz) for name, point in moves.points.items()}
+    for (first, a), (second, b) in itertools.combinations(points.items(), 2):
+        if (length := float(np.linalg.norm(b - a))) > 1e-3:
+            axis = (b - a) / length
+            named[f"turning about the line through points `{first}` and `{second}`"] = _turning(axis, a)
+    for name, at in points.items():
+        for axis_name, axis in zip("zxy", np.eye(3)[[2, 0, 1]], strict=True):
+            named[f"turning about the {axis_name} axis through point `{name}`"] = _turning(axis, at)
     return named
+
+
+def _turning(axis: np.ndarray, point: np.ndarray) -> np.ndarray:
+    """Returns the twist of a turn about an axis through a point."""
+    return np.concatenate([np.cross(point, axis), axis])
 
 
 def _add_shift(named: dict[str, np.ndarray], name: str, direction: np.ndarray) -> None:
@@ -41,14 +55,31 @@ def _add_shift(named: dict[str, np.ndarray], name: str, direction: np.ndarray) -
         named[f"shifting {name}"] = np.concatenate([direction / length, np.zeros(3)])
 
 
-def off_plane(twists: np.ndarray, moves: Movements) -> np.ndarray:
-    """Returns (directions, rows, 4): how far each twist takes the plane a row aims at off itself."""
-    planes = list(moves.targets.values())
-    normals = np.array([plane.normal for plane in planes])[moves.aimed]
-    feet = normals * -np.array([plane.offset for plane in planes])[moves.aimed][:, None]
+def off_target(twists: np.ndarray, moves: Movements) -> np.ndarray:
+    """Returns (directions, rows, 6): how far each twist takes the target a row aims at off itself, padded with zeros.
+
+    A plane by its lift and tilt, a point by its shift; where a row aims at nothing the twist itself.
+    """
+    off = np.array(twists)
     v, w = twists[..., :3], twists[..., 3:]
-    lift = np.sum(normals * (v + np.cross(w, feet)), axis=-1, keepdims=True)
-    return np.concatenate([lift, np.cross(w, np.broadcast_to(normals, w.shape))], axis=-1)
+    for place, target in enumerate(moves.targets.values()):
+        rows = moves.aimed == place
+        at = (v[:, rows], w[:, rows])
+        off[:, rows] = _off_plane(*at, target) if isinstance(target, Plane) else _off_point(*at, target)
+    return off
+
+
+def _off_plane(v: np.ndarray, w: np.ndarray, plane: Plane) -> np.ndarray:
+    normal = np.asarray(plane.normal)
+    lift = np.sum(normal * (v + np.cross(w, -plane.offset * normal)), axis=-1, keepdims=True)
+    return np.concatenate(
+        [lift, np.cross(w, np.broadcast_to(normal, w.shape)), np.zeros((*lift.shape[:-1], 2))], axis=-1
+    )
+
+
+def _off_point(v: np.ndarray, w: np.ndarray, point: Point) -> np.ndarray:
+    shift = v + np.cross(w, np.broadcast_to(point.xyz, w.shape))
+    return np.concatenate([shift, np.zeros_like(shift)], axis=-1)
 
 
 def seen_from_sensor(twists: np.ndarray, poses: np.ndarray) -> np.ndarray:

@@ -2,9 +2,9 @@
 
 In configuration k a null direction δ moves the sensor by the twist ξ_k = Σ_p twist_p(q_k) δ_p. Where all ξ_k are
 zero, the parameters do the same to the arm, or belong to a target that no row aims at. Where each ξ_k maps the
-plane it aims at onto itself, the sensor only glides along it. Where all ξ_k are one twist, the whole arm moves as
-a rigid body, and targets with it. Where they are one twist seen from the sensor, the sensor moves on its mount.
-What is left has no name.
+plane or point it aims at onto itself, the sensor only glides along or about it. Where all ξ_k are one twist, the
+whole arm moves as a rigid body, and targets with it. Where they are one twist seen from the sensor, the sensor
+moves on its mount. What is left has no name.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from jaxtyping import Float
 
 from boresight.inference.identifiability import shortest
 from boresight.inference.movements import Movements
-from boresight.inference.rigid import AXES, base_motions, off_plane, seen_from_sensor
+from boresight.inference.rigid import AXES, base_motions, off_target, seen_from_sensor
 
 Kind = Literal["still", "gliding", "base", "sensor", "other"]
 KINDS: tuple[Kind, ...] = ("still", "gliding", "base", "sensor", "other")
@@ -38,11 +38,13 @@ class Symmetry:
         direction: (parameters,) scaled, its largest entry 1.
         kind: of motion.
         motion: which motion, for kinds `base` and `sensor`: "turning about z"; "" where it has no name.
+        mount: for kind `sensor`, which mount moves.
     """
 
     direction: Float[np.ndarray, "parameters"]
     kind: Kind
     motion: str = ""
+    mount: str = ""
 
 
 @dataclass
@@ -60,7 +62,7 @@ class _Taken:
             rows -= np.outer(rows[:, pivot] / known[pivot], known)
         return rows
 
-    def take(self, direction: np.ndarray, kind: Kind, motion: str = "") -> None:
+    def take(self, direction: np.ndarray, kind: Kind, motion: str = "", mount: str = "") -> None:
         """Adds a direction, unless the ones before it make it up."""
         left = self.without(direction[None, :] / np.abs(direction).max())[0]
         if np.abs(left).max() < 1e-4:
@@ -69,7 +71,7 @@ class _Taken:
         left = np.where(np.abs(left) < ALIKE * abs(left[pivot]), 0.0, left / left[pivot])
         self.rows.append(left)
         self.pivots.append(pivot)
-        self.found.append(Symmetry(left, kind, motion))
+        self.found.append(Symmetry(left, kind, motion, mount))
 
 
 def symmetries_of(
@@ -91,15 +93,19 @@ def symmetries_of(
     taken = _Taken()
     _take_short(taken, _vanishing(null, twists), "still")
     if moves.targets:
-        _take_alone(taken, _vanishing(null, off_plane(twists, moves), of_targets), "gliding")
+        _take_alone(taken, _vanishing(null, off_target(twists, moves), of_targets), "gliding")
     constant = _vanishing(null, twists - twists.mean(axis=1, keepdims=True))
     _take_named(taken, constant, _mean(constant, scale, moves.twists), base_motions(moves), "base")
     if moves.targets and not moves.too_few:  # a few rows are glided over by many motions that have no reason
-        _take_short(taken, _vanishing(null, off_plane(twists, moves), of_targets), "gliding")
+        _take_short(taken, _vanishing(null, off_target(twists, moves), of_targets), "gliding")
     own = seen_from_sensor(twists, moves.poses)
-    fixed = _vanishing(null, own - own.mean(axis=1, keepdims=True), of_targets)
-    on_sensor = seen_from_sensor(np.einsum("rpx,dp->drx", moves.twists, fixed * scale), moves.poses).mean(axis=1)
-    _take_named(taken, fixed, on_sensor, AXES, "sensor")
+    for place in np.unique(moves.mounted):
+        rows = moves.mounted == place
+        alone = own - np.where(rows[:, None], own[:, rows].mean(axis=1, keepdims=True), 0.0)
+        fixed = _vanishing(null, alone, of_targets)
+        moved = np.einsum("rpx,dp->drx", moves.twists[rows], fixed * scale)
+        on_sensor = seen_from_sensor(moved, moves.poses[rows]).mean(axis=1)
+        _take_named(taken, fixed, on_sensor, AXES, "sensor", moves.mounts[place])
     _take_short(taken, null, "other")
     return sorted(taken.found, key=lambda symmetry: KINDS.index(symmetry.kind))
 
@@ -115,9 +121,9 @@ def _vanishing(null: np.ndarray, *images: np.ndarray) -> np.ndarray:
     return left[:, full < ALIKE].T @ null
 
 
-def _take_short(taken: _Taken, space: np.ndarray, kind: Kind) -> None:
+def _take_short(taken: _Taken, space: np.ndarray, kind: Kind, mount: str = "") -> None:
     for row in _new(taken, space):
-        taken.take(row, kind)
+        taken.take(row, kind, mount=mount)
 
 
 def _take_alone(taken: _Taken, space: np.ndarray, kind: Kind) -> None:
@@ -135,15 +141,17 @@ def _new(taken: _Taken, space: np.ndarray) -> np.ndarray:
     return shortest(rows[sizes > 1e-4])
 
 
-def _take_named(taken: _Taken, space: np.ndarray, twists: np.ndarray, named: dict[str, np.ndarray], kind: Kind) -> None:
+def _take_named(
+    taken: _Taken, space: np.ndarray, twists: np.ndarray, named: dict[str, np.ndarray], kind: Kind, mount: str = ""
+) -> None:
     """Takes from a space of rigid motions those that have names, then the rest."""
     if not len(space):
         return
     for name, twist in named.items():
         parts = np.linalg.lstsq(twists.T, twist, rcond=1e-9)[0]
         if np.linalg.norm(parts @ twists - twist) < 1e-4 * np.linalg.norm(twist):
-            taken.take(parts @ space, kind, name)
-    _take_short(taken, space, kind)
+            taken.take(parts @ space, kind, name, mount)
+    _take_short(taken, space, kind, mount)
 
 
 def _mean(space: np.ndarray, scale: np.ndarray, twists: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 
 from boresight.kernels.carrying import along, moved_offset, turned
 from boresight.kernels.compiling import compiled
-from boresight.kernels.programs import FIXED, LANES, TURN
+from boresight.kernels.programs import FIXED, LANES, POINT, TURN
 from boresight.kernels.trigonometry import sincos
 
 _LANES = np.uint64(LANES)
@@ -105,8 +105,20 @@ def _into_base(base, plane):
 
 
 @compiled
+def _point_into_base(base, point):
+    """Carries a point from the world to the first joint's axis, in place."""
+    for i in range(LANES):
+        x = point[i] - base[9 * LANES + i]
+        y = point[LANES + i] - base[10 * LANES + i]
+        z = point[2 * LANES + i] - base[11 * LANES + i]
+        point[i] = along(x, y, z, base[i], base[LANES + i], base[2 * LANES + i])
+        point[LANES + i] = along(x, y, z, base[3 * LANES + i], base[4 * LANES + i], base[5 * LANES + i])
+        point[2 * LANES + i] = along(x, y, z, base[6 * LANES + i], base[7 * LANES + i], base[8 * LANES + i])
+
+
+@compiled
 def build_planes(program, members, start, links, planes):
-    """Writes every plane as seen from the first joint's axis, for one tile whose links are built."""
+    """Writes every plane and point as seen from the first joint's axis, for one tile whose links are built."""
     base = links[: 12 * LANES]
     for plane in range(program.plane.shape[0]):
         out = planes[plane * 4 * LANES : (plane + 1) * 4 * LANES]
@@ -114,6 +126,9 @@ def build_planes(program, members, start, links, planes):
             lanes = out[component * LANES : (component + 1) * LANES]
             _moved_component(program, plane, component, members, start, lanes)
         dropped = program.plane_dropped[plane]
+        if dropped == POINT:
+            _point_into_base(base, out)
+            continue
         first, second = min((dropped + 1) % 3, (dropped + 2) % 3), max((dropped + 1) % 3, (dropped + 2) % 3)
         if program.plane_parameter[plane, first] != FIXED or program.plane_parameter[plane, second] != FIXED:
             _complete(
@@ -127,14 +142,17 @@ def build_planes(program, members, start, links, planes):
 
 @compiled
 def build_sensor(program, members, start, sensor):
-    """Writes the sensor's bias [m] and gain for one tile."""
-    for number in range(2):
-        lanes = sensor[number * LANES : (number + 1) * LANES]
-        nominal = program.sensor_value[number] + (1.0 if number == 1 else 0.0)
-        parameter = program.sensor_parameter[number]
-        for i in range(LANES):
-            lanes[i] = nominal
-        if parameter != FIXED:
-            correction = members[parameter, start : start + LANES]
-            for i in range(LANES):
-                lanes[i] += correction[i]
+    """Writes every sensor's bias [m] and gain for one tile."""
+    for slot in range(program.sensor_value.shape[0]):
+        for number in range(3):
+            place = 2 * slot + number % 2  # the third number is a second correction of the bias
+            lanes = sensor[place * LANES : (place + 1) * LANES]
+            parameter = program.sensor_parameter[slot, number]
+            if number < 2:
+                nominal = program.sensor_value[slot, number] + (1.0 if number == 1 else 0.0)
+                for i in range(LANES):
+                    lanes[i] = nominal
+            if parameter != FIXED:
+                correction = members[parameter, start : start + LANES]
+                for i in range(LANES):
+                    lanes[i] += correction[i]

@@ -4,7 +4,8 @@ Instead of carrying the tool to the base (4x4 products, a point and a beam), car
 the base to the tool. A frame change p = R p' + t turns n·p + f = 0 into n' = R^T n, f' = f + n·t. In the
 sensor's frame, whose beam leaves the origin along z, the range is h = -f / n_z (paper, eq. 9), and f alone
 is the signed distance of the sensor from the plane, which for the planes x = 0, y = 0, z = 0 is its
-position. A link costs 16 multiply-adds.
+position. A link costs 16 multiply-adds. A point is handed on in the same way, c' = R^T (c - t), and its distance
+from the sensor is |c|.
 
 These functions are the one source of the hot loop, whatever it is compiled for.
 """

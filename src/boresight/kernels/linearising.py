@@ -27,8 +27,8 @@ class Point(NamedTuple):
         plane: (planes, 4) unit normal and offset [m] in the world, corrections added.
         by_plane: (planes, 4, 3) derivative of these by the corrections of two components of the normal and the offset.
         plane_column: (planes, 3) columns of these corrections, or `FIXED`.
-        bias: of the sensor [m].
-        gain: of the sensor, 1 and its relative scale error.
+        bias: (sensors,) of each sensor in each session [m].
+        gain: (sensors,) 1 and its relative scale error.
     """
 
     value: np.ndarray
@@ -37,8 +37,8 @@ class Point(NamedTuple):
     plane: np.ndarray
     by_plane: np.ndarray
     plane_column: np.ndarray
-    bias: float
-    gain: float
+    bias: np.ndarray
+    gain: np.ndarray
 
 
 @compiled
@@ -94,17 +94,22 @@ def _backward(program, point, rows, row, n, x, slope, slopes):
 
 
 @compiled
-def _by_plane_and_sensor(program, point, plane, x, slope, distance, slopes):
-    """Writes the derivatives by the plane's corrections, x being in the world, and by the sensor's own numbers."""
+def _by_plane(point, plane, x, slope, slopes):
+    """Writes the derivatives by the plane's corrections, x being in the world."""
     for k in range(3):
         column = point.plane_column[plane, k]
         if column != FIXED:
             by = point.by_plane[plane]
             slopes[column] += slope * (x[0] * by[0, k] + x[1] * by[1, k] + x[2] * by[2, k] + by[3, k])
-    if program.sensor_parameter[0] != FIXED:
-        slopes[program.sensor_parameter[0]] += 1.0
-    if program.sensor_parameter[1] != FIXED:
-        slopes[program.sensor_parameter[1]] += distance
+
+
+@compiled
+def _by_sensor(program, sensor, distance, slopes):
+    """Writes the derivatives of a range by the sensor's own numbers."""
+    for number in range(3):
+        column = program.sensor_parameter[sensor, number]
+        if column != FIXED:
+            slopes[column] += distance if number == 1 else 1.0
 
 
 @compiled
@@ -117,7 +122,8 @@ def predict_row(program, point, rows, row, n):
     if rows.readout[row] != RANGE:
         return True, f, 1.0
     if f * n[2] < 0.0:
-        return True, point.bias - point.gain * f / n[2], -point.gain / n[2]
+        bias, gain = point.bias[rows.sensor[row]], point.gain[rows.sensor[row]]
+        return True, bias - gain * f / n[2], -gain / n[2]
     return False, 0.0, 0.0
 
 
@@ -128,12 +134,13 @@ def linearise_row(program, point, rows, row, n, x, slopes):
         slopes[k] = 0.0
     hit, predicted, slope = predict_row(program, point, rows, row, n)
     if hit:
-        is_range = rows.readout[row] == RANGE
-        distance = (predicted - point.bias) / point.gain if is_range else 0.0
+        is_range, sensor = rows.readout[row] == RANGE, rows.sensor[row]
+        distance = (predicted - point.bias[sensor]) / point.gain[sensor] if is_range else 0.0
         x[0], x[1], x[2] = 0.0, 0.0, distance
         _backward(program, point, rows, row, n, x, slope, slopes)
+        _by_plane(point, rows.plane[row], x, slope, slopes)
         if is_range:
-            _by_plane_and_sensor(program, point, rows.plane[row], x, slope, distance, slopes)
+            _by_sensor(program, sensor, distance, slopes)
     return hit, predicted
 
 

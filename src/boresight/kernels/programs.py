@@ -22,12 +22,16 @@ _CACHE_LINE = 64
 TURN, SHIFT = 0, 1
 """An elementary motion turns about, or shifts along, one coordinate axis."""
 
-RANGE, OFFSET = 0, 1
-"""A readout is the range along the sensor's +z to the carried plane, or the plane's offset: the signed
-distance of the sensor's origin from the plane."""
+RANGE, OFFSET, DISTANCE, COMPONENT = 0, 1, 2, 3
+"""A readout is the range along the sensor's +z to the carried plane; or the plane's offset, the signed distance of
+the sensor's origin from the plane; or the distance of the sensor's origin from the carried point; or, `COMPONENT` and
+the two numbers after it, the x, y or z component of the carried plane's normal."""
 
 FIXED = -1
 """In place of a parameter's row: this number does not move."""
+
+POINT = -1
+"""In place of a dropped component: this is a point and not a plane."""
 
 MISSED = 1e4
 """The error [m] charged for a beam that looks away from its plane: missing one reading fewer is worth more
@@ -41,21 +45,23 @@ WORST = 1e300
 class Program(NamedTuple):
     """How a member, a column of a (parameters, members) array of corrections, becomes links and planes.
 
-    Segment 0 leads from the world to the first joint's axis, segment i from joint i's axis to the next
-    (the last one to the sensor). Within a segment, motions run in order.
+    Segment 0 leads from the world to the first joint's axis, segment i from joint i's axis to the next, the last
+    joint's to the sensor; where there are several mounts, one more segment each leads from it to the others. Within a
+    segment, motions run in order.
 
     Attributes:
-        segment_start: (joints + 2,) first motion of each segment, and their number.
+        segment_start: (joints + mounts + 1,) first motion of each segment, and their number.
         motion_kind: (motions,) `TURN` or `SHIFT`.
         motion_axis: (motions,) 0, 1, 2 for x, y, z.
         motion_value: (motions,) nominal angle [rad] or length [m].
         motion_parameter: (motions,) row of the member's correction, or `FIXED`.
         prismatic: (joints,) whether the joint shifts along z rather than turning about it.
-        plane: (planes, 4) nominal unit normal and offset [m] in the world.
-        plane_parameter: (planes, 4) rows of the corrections of n_x, n_y, n_z and the offset, or `FIXED`.
-        plane_dropped: (planes,) the component of the normal that follows from the other two.
-        sensor_value: (2,) nominal bias [m] and relative scale error of the sensor.
-        sensor_parameter: (2,) rows of their corrections, or `FIXED`.
+        plane: (planes, 4) nominal unit normal and offset [m] in the world, or a point's x, y, z [m] and 0.
+        plane_parameter: (planes, 4) rows of the corrections of n_x, n_y, n_z and the offset, or of x, y and z, or
+            `FIXED`.
+        plane_dropped: (planes,) the component of the normal that follows from the other two; `POINT` for a point.
+        sensor_value: (sensors, 2) nominal bias [m] and relative scale error of each sensor in each session.
+        sensor_parameter: (sensors, 3) rows of their corrections and of a second one of the bias, or `FIXED`.
         prior_weight: (parameters,) weight of each squared correction in the cost.
         loss: squared residual [m²] beyond which the cost grows with the residual rather than with its square
             (pseudo-Huber), or 0 for plain squares.
@@ -82,15 +88,19 @@ class Rows(NamedTuple):
     Attributes:
         first: (rows, joints) cos q of a revolute joint, the displacement [m] of a prismatic one.
         second: (rows, joints) sin q of a revolute joint, unused of a prismatic one.
-        plane: (rows,) the plane a reading is about.
-        readout: (rows,) `RANGE` or `OFFSET`.
-        reading: (rows,) measured value [m].
+        plane: (rows,) the plane or point a reading is about.
+        mount: (rows,) the mount whose segment comes last.
+        sensor: (rows,) the sensor, in its session, that reads.
+        readout: (rows,) `RANGE`, `OFFSET`, `DISTANCE`, or `COMPONENT` and the two after it.
+        reading: (rows,) measured value [m, or 1 of a component].
         weight: (rows,) weight of the squared residual in the cost.
     """
 
     first: np.ndarray
     second: np.ndarray
     plane: np.ndarray
+    mount: np.ndarray
+    sensor: np.ndarray
     readout: np.ndarray
     reading: np.ndarray
     weight: np.ndarray
@@ -104,7 +114,7 @@ class Workspace(NamedTuple):
         planes: (planes * 4 * LANES,) planes of a tile, as seen from the first joint's axis.
         state: (4 * LANES,) the carried plane (n_x, n_y, n_z, f) of a tile.
         costs: (LANES,) cost of a tile.
-        sensor: (2 * LANES,) bias [m] and gain of a tile's sensors.
+        sensor: (sensors * 2 * LANES,) bias [m] and gain of a tile's sensors.
         scratch: (3 * LANES,) amounts of a motion, their sines and cosines.
     """
 
@@ -132,7 +142,7 @@ def workspace(program: Program) -> Workspace:
         planes=aligned(max(len(program.plane), 1) * 4 * LANES),
         state=aligned(4 * LANES),
         costs=aligned(LANES),
-        sensor=aligned(2 * LANES),
+        sensor=aligned(len(program.sensor_value) * 2 * LANES),
         scratch=aligned(3 * LANES),
     )
 

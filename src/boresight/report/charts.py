@@ -98,7 +98,7 @@ def errors_chart(result: Result) -> ErrorsChart | None:
     positive = both[np.isfinite(both) & (both > 0.0)]
     if not positive.size:
         return None
-    noise = result.stated_std * 1e3 * np.sqrt(result.errors["after"].shape[1])
+    noise = result.readings.usual_row_std * 1e3
     high = float(positive.max())
     low = max(float(np.quantile(positive, _SHOWN_QUANTILE)), high * 1e-9)
     line = result.readings.line

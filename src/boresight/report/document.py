@@ -12,9 +12,10 @@ from boresight.arm.serial import corrected_chain
 from boresight.calibration.beyond import Beyond
 from boresight.calibration.result import ErrorSummary, Residuals, Result
 from boresight.calibration.solve import Stage
-from boresight.geometry import Frame
+from boresight.geometry import Frame, Plane
 from boresight.inference import PoseUncertainty
 from boresight.inference.pose import COVERAGE
+from boresight.sensing import Target
 
 SCHEMA = "boresight-result/1"
 """Name and version of the layout; the number grows when a key changes its meaning or goes."""
@@ -33,7 +34,22 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
         "version": version,
         "seed": result.solver.seed,
         "verdict": {"accepted": result.verdict.accepted, "reasons": list(result.verdict.reasons)},
-        "residuals": {"calibration": _residuals(result.calibration), "validation": _residuals(result.validation)},
+        "residuals": {
+            "calibration": _residuals(result.calibration),
+            "validation": _residuals(result.validation),
+            "by_sensor": [
+                {
+                    "sensor": each.sensor,
+                    "what": each.what,
+                    "unit": each.unit,
+                    "count": each.rows,
+                    "stated_std": each.stated_std,
+                    "before": _summary(each.before),
+                    "after": _summary(each.after),
+                }
+                for each in result.by_sensor
+            ],
+        },
         "parameters": [
             {
                 "name": estimate.name,
@@ -59,10 +75,8 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
             "degrees_of_freedom": result.noise.freedom,
         },
         "beyond_geometry": _beyond(result.beyond),
-        "frames": {"base": _frame(result.cell.base), "mount": _frame(result.cell.mount)},
-        "targets": {
-            name: {"normal": list(plane.normal), "offset": plane.offset} for name, plane in result.cell.targets.items()
-        },
+        "frames": {name: _frame(frame) for name, frame in {"base": result.cell.base, **result.cell.mounts}.items()},
+        "targets": {name: _target(target) for name, target in result.cell.targets.items()},
         "correlations": [
             {"parameters": [first, second], "correlation": value} for first, second, value in result.correlations()
         ],
@@ -76,6 +90,18 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
                 "reason": outlier.reason,
             }
             for outlier in result.outliers
+        ],
+        "jumps": [
+            {
+                "sensor": jump.sensor,
+                "channel": jump.channel,
+                "line": jump.line,
+                "session": jump.session,
+                "size": jump.size,
+                "std": jump.std,
+                "unit": "rad" if jump.angle else "m",
+            }
+            for jump in result.jumps
         ],
         "set_aside": [{"file": row.file, "line": row.line, "reason": row.reason} for row in result.set_aside],
         "warnings": list(result.warnings),
@@ -184,6 +210,12 @@ def _urdf(result: Result) -> dict[str, Any] | None:
             for was, now in zip(chain.joints, corrected.joints, strict=True)
         ],
     }
+
+
+def _target(target: Target) -> dict[str, Any]:
+    if isinstance(target, Plane):
+        return {"normal": list(target.normal), "offset": target.offset}
+    return {"position": list(target.xyz)}
 
 
 def _frame(frame: Frame) -> dict[str, list[float]]:

@@ -14,6 +14,7 @@ from boresight.calibration.result import Estimate, Residuals, Result
 from boresight.inference import PoseUncertainty
 from boresight.inference.pose import COVERAGE
 from boresight.report.charts import convergence_chart, correction_charts, errors_chart
+from boresight.sensing import Pose
 from boresight.units import in_millimetres
 
 if TYPE_CHECKING:
@@ -62,7 +63,7 @@ def render_page(result: Result, version: str) -> str:
         result: what a calibration found.
         version: of the software, for the page's foot.
     """
-    channels = result.errors["after"].shape[1]
+    channels = result.cell.channels
     return (
         _environment()
         .get_template("page.html.jinja")
@@ -77,11 +78,34 @@ def render_page(result: Result, version: str) -> str:
             fixed=tuple(estimate for estimate in result.estimates if estimate.source == "fixed"),
             poses=(pose("these rows", result.at_rows), pose("work space", result.in_workspace)),
             channels=channels,
-            noise=result.stated_std * math.sqrt(channels),
+            noise=result.readings.usual_row_std,
+            error_words=error_words(result),
             evolved=bool(len(result.solution.history)),
             most=MOST_LISTED,
         )
     )
+
+
+def error_words(result: Result) -> str:
+    """Returns what an error of a row is, as sentences."""
+    sensors = result.cell.sensors
+    levers = [
+        f"{millimetres(sensor.lever)}{f' ({name})' if len(sensors) > 1 else ''}"
+        for name, sensor in sensors.items()
+        if isinstance(sensor, Pose)
+    ]
+    turned = f" An orientation counts as the arc on a lever of {' or '.join(levers)}." if levers else ""
+    if result.cell.channels == 1:
+        return "An error is predicted minus measured."
+    words = "An error is the length of the difference between predicted and measured position"
+    return (
+        f"{words}, or of a single value predicted minus measured.{turned}" if len(sensors) > 1 else f"{words}.{turned}"
+    )
+
+
+def amount(value: float, unit: str) -> str:
+    """Returns a length [m] in mm or an angle [rad] in mrad, with three digits that matter."""
+    return millimetres(value) if unit == "m" else millimetres(value).replace("mm", "mrad")
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,6 +207,7 @@ def _environment() -> Environment:
     )
     environment.filters |= {
         "length": millimetres,
+        "amount": amount,
         "length_of": len,
         "change": change,
         "duration": duration,

@@ -18,6 +18,14 @@ from boresight.units import in_millimetres
 _FEW = 5
 _DIRECTIONS = 3
 
+_KINDS = {
+    "laser_ranger": "range error",
+    "draw_wire": "length error",
+    "pose": "pose error",
+    "plane_contact": "contact error",
+    "distances": "distance error",
+}
+
 
 def print_summary(console: Console, result: Result, folder: Path) -> None:
     """Prints verdict, before and after, what was not seen, how the search went, and where the files are."""
@@ -35,16 +43,33 @@ def print_summary(console: Console, result: Result, folder: Path) -> None:
 
 
 def _errors_table(result: Result) -> Table:
-    kind = "range error" if result.cell.sensor.needs_target else "position error"
-    table = Table(box=None, padding=(0, 2), pad_edge=True)
-    table.add_column(kind, style="bold")
+    kinds = {
+        "laser_ranger": "range error",
+        "draw_wire": "length error",
+        "plane_contact": "contact error",
+        "distances": "distance error",
+        "pose": "pose error",
+    }
+    types = {sensor.type for sensor in result.cell.sensors.values()}
+    kind = "error" if len(types) > 1 else kinds.get(next(iter(types)), "position error")
+    table = Table(box=None, padding=(0, 2) if len(result.by_sensor) == 1 else (0, 1), pad_edge=True)
+    table.add_column(kind, style="bold", no_wrap=True)
     table.add_column("rows", justify="right")
     for when in ("before", "after"):
         table.add_column(f"{when}: RMS", justify="right")
         table.add_column("max", justify="right")
     table.add_row("held out", *_error_cells(result.validation))
     table.add_row("calibration", *_error_cells(result.calibration))
+    if len(result.by_sensor) > 1:
+        for each in result.by_sensor:
+            sizes = (each.before.rms, each.before.max, each.after.rms, each.after.max)
+            name = each.what if len(result.cell.sensors) == 1 else f"{each.sensor} {each.what}"
+            table.add_row(name, str(each.rows), *(_amount(size, each.unit) for size in sizes))
     return table
+
+
+def _amount(size: float, unit: str) -> str:
+    return in_millimetres(size) if unit == "m" else in_millimetres(size).replace("mm", "mrad")
 
 
 def _error_cells(residuals: Residuals) -> tuple[str, ...]:

@@ -9,20 +9,47 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from boresight.calibration.result import Result
+from boresight.sensing import Sensor
 
 
 def residuals_csv(result: Result) -> str:
-    """Returns `residuals.csv`: for each calibration row the errors [m], measured minus predicted."""
-    channels = result.cell.sensor.channels
+    """Returns `residuals.csv`: for each calibration row the errors [m or rad], measured minus predicted.
+
+    A column a channel of any sensor, empty where a row's sensor has no such channel.
+    """
+    cell, readings = result.cell, result.readings
+    units = {name: unit for sensor in cell.sensors.values() for name, unit in _channel_units(sensor).items()}
+    named = {
+        "sensor": len(cell.sensors) > 1,
+        "marker": len(cell.mounts) > 1,
+        "session": readings.session is not None,
+    }
+    extra = [name for name, wanted in named.items() if wanted]
+    columns = [f"{when}_{name}_{unit}" for when in ("before", "after") for name, unit in units.items()]
     flagged = {outlier.line for outlier in result.outliers}
-    header = ["line", "target", *(f"before_{c}_m" for c in channels), *(f"after_{c}_m" for c in channels), "outlier"]
-    before, after = -result.errors["before"], -result.errors["after"]
-    names = list(result.cell.targets) if result.cell.sensor.needs_target else [""]
-    rows = (
-        [int(line), names[place], *map(_digits, before[i]), *map(_digits, after[i]), int(int(line) in flagged)]
-        for i, (line, place) in enumerate(zip(result.readings.line, result.readings.target, strict=True))
-    )
-    return _csv(header, rows)
+
+    def row(place: int) -> list[object]:
+        aim, line = cell.aims[readings.target[place]], int(readings.line[place])
+        sensor = cell.sensors[aim.sensor]
+        keys = {"sensor": aim.sensor, "marker": aim.mount, "session": ""}
+        if readings.session is not None:
+            keys["session"] = readings.session[place]
+        errors = []
+        for when in ("before", "after"):
+            own = {
+                name: -error / (lever or 1.0)
+                for name, lever, error in zip(sensor.channels, sensor.levers, result.errors[when][place], strict=False)
+            }
+            errors += [_digits(own[name]) if name in own else "" for name in units]
+        return [line, aim.target or "", *(keys[name] for name in extra), *errors, int(line in flagged)]
+
+    return _csv(["line", "target", *extra, *columns, "outlier"], map(row, range(len(readings))))
+
+
+def _channel_units(sensor: Sensor) -> dict[str, str]:
+    """Returns the unit of each channel as it is told to people: m, or rad where it is an angle on a lever."""
+    units = ("m" if lever is None else "rad" for lever in sensor.levers)
+    return dict(zip(sensor.channels, units, strict=True))
 
 
 def convergence_csv(result: Result) -> str:

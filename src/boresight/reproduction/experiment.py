@@ -122,7 +122,8 @@ def _configurations(nominal: Cell, truth: Cell, cosine: float, seed: int) -> tup
         joints, target = draw_configurations((nominal, truth), 2 * setting.MOST_ROWS, seed, part)
         good = non_singular(nominal, joints)
         for cell in (nominal, truth):
-            normals = np.array([plane.normal for plane in cell.targets.values()])[target]
+            planes_of = [plane for plane in cell.targets.values() if isinstance(plane, Plane)]
+            normals = np.array([plane.normal for plane in planes_of])[target]
             good &= np.abs(np.einsum("ri,ri->r", cell.poses(joints)[:, :3, 2], normals)) > cosine
         for place in range(planes):
             found[place].extend(joints[good & (target == place)])

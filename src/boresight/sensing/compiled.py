@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
@@ -15,19 +16,22 @@ from jaxtyping import Float
 from boresight.arm import Chain, Motion
 from boresight.geometry import Plane
 from boresight.kernels.evolving import evolve_generations
-from boresight.kernels.programs import FIXED, SHIFT, TURN, Program, Rows, aligned, padded, workspace
+from boresight.kernels.programs import COMPONENT, FIXED, POINT, SHIFT, TURN, Program, Rows, aligned, padded, workspace
 from boresight.kernels.sweeping import sweep
 from boresight.search import Box, DifferentialEvolution, Population, Staleness, Stops, Stretch, seed_population
-from boresight.sensing.cell import SENSOR, Cell
+from boresight.sensing.aims import Aim
+from boresight.sensing.cell import Cell
 from boresight.sensing.readings import Readings
+from boresight.sensing.sensor import Target
 
-_SENSOR_NUMBERS = ("bias", "scale")
+_AXIS_PLANES = (Plane((1.0, 0.0, 0.0), 0.0), Plane((0.0, 1.0, 0.0), 0.0), Plane((0.0, 0.0, 1.0), 0.0))
+"""Planes whose offsets, seen from the sensor, are its position, and whose normals its orientation."""
 
 
 def compile_program(
     cell: Cell, free: Sequence[str], prior_weight: Float[np.ndarray, "free"], loss: float = 0.0
 ) -> Program:
-    """Returns how corrections of the free parameters, in that order, become links and planes.
+    """Returns how corrections of the free parameters, in that order, become links, planes and points.
 
     Args:
         cell: the nominal cell.
@@ -36,10 +40,11 @@ def compile_program(
         loss: squared residual [m²] beyond which the cost grows with the residual, not its square; 0 for never.
     """
     place = {name: row for row, name in enumerate(free)}
-    segments, prismatic = _segments(cell.chain)
+    (segments, prismatic), *others = (_segments(chain) for chain in cell.chains.values())
+    segments += [last for (*_, last), _ in others]
     kept = [[m for m in segment if m.value != 0.0 or m.parameter in place] for segment in segments]
     motions = [motion for segment in kept for motion in segment]
-    planes = carried_planes(cell)
+    planes, sensors = carried_planes(cell), _sensors(cell)
     return Program(
         segment_start=np.cumsum([0] + [len(segment) for segment in kept]),
         motion_kind=np.array([TURN if m.turns else SHIFT for m in motions], dtype=np.int64),
@@ -47,34 +52,67 @@ def compile_program(
         motion_value=np.array([m.value for m in motions], dtype=float),
         motion_parameter=np.array([place.get(m.parameter or "", FIXED) for m in motions], dtype=np.int64),
         prismatic=np.array(prismatic, dtype=np.bool_),
-        plane=np.array([[*plane.normal, plane.offset] for _, plane in planes]),
+        plane=np.array([_plane_values(plane) for _, plane in planes]),
         plane_parameter=np.array([_plane_rows(name, plane, place) for name, plane in planes], dtype=np.int64),
-        plane_dropped=np.array([plane.dropped for _, plane in planes], dtype=np.int64),
-        sensor_value=np.array([getattr(cell.sensor, name, 0.0) for name in _SENSOR_NUMBERS]),
-        sensor_parameter=np.array([place.get(f"{SENSOR}.{name}", FIXED) for name in _SENSOR_NUMBERS], dtype=np.int64),
+        plane_dropped=np.array([plane.dropped if isinstance(plane, Plane) else POINT for _, plane in planes]),
+        sensor_value=np.array([_sensor_values(cell, aim) for aim in sensors]),
+        sensor_parameter=np.array([_sensor_rows(aim, place) for aim in sensors], dtype=np.int64),
         prior_weight=np.ascontiguousarray(prior_weight, dtype=float),
         loss=float(loss),
     )
 
 
 def compile_rows(cell: Cell, readings: Readings, weight: Float[np.ndarray, "rows channels"]) -> Rows:
-    """Returns the readings channel by channel, each with the weight of its squared residual in the cost."""
-    count, channels = readings.values.shape
+    """Returns the readings as the scalars that the loop reads, each with the weight of its squared residual."""
     angle = np.array([motion.turns for motion in cell.chain.motions if motion.joint is not None])
     order = [motion.joint for motion in cell.chain.motions if motion.joint is not None]
     ratio = [motion.ratio for motion in cell.chain.motions if motion.joint is not None]
     moved = readings.joints[:, order] * ratio + cell.chain.bends(readings.joints)
-    own = np.broadcast_to(readings.target[:, None], (count, channels))
-    plane = np.array([channel if readout.plane else 0 for channel, readout in enumerate(cell.sensor.readouts)])
-    is_own = np.array([readout.plane is None for readout in cell.sensor.readouts])
     first, second = np.where(angle, np.cos(moved), moved), np.where(angle, np.sin(moved), 0.0)
-    return Rows(
-        first=np.ascontiguousarray(np.repeat(first, channels, axis=0)),
-        second=np.ascontiguousarray(np.repeat(second, channels, axis=0)),
-        plane=np.where(is_own, own, plane).ravel().astype(np.int64),
-        readout=np.tile([readout.kind for readout in cell.sensor.readouts], count).astype(np.int64),
-        reading=readings.values.ravel().astype(float),
-        weight=np.ascontiguousarray(weight, dtype=float).ravel(),
+    parts = [_scalars(cell, readings, weight, place) for place in np.unique(readings.target).tolist() or [0]]
+    rows = np.concatenate([part.rows for part in parts])
+    by_row = np.argsort(rows, kind="stable")
+    numbers = {name: np.concatenate([getattr(part, name) for part in parts])[by_row] for name in _Scalars._fields}
+    rows = numbers.pop("rows")
+    return Rows(first=np.ascontiguousarray(first[rows]), second=np.ascontiguousarray(second[rows]), **numbers)
+
+
+class _Scalars(NamedTuple):
+    """What `Rows` has, and the row of the readings each scalar is of."""
+
+    rows: np.ndarray
+    plane: np.ndarray
+    mount: np.ndarray
+    sensor: np.ndarray
+    readout: np.ndarray
+    reading: np.ndarray
+    weight: np.ndarray
+
+
+def _scalars(cell: Cell, readings: Readings, weight: Float[np.ndarray, "rows channels"], place: int) -> _Scalars:
+    """Returns the scalars of the rows of one aim, row by row."""
+    aim = cell.aims[place]
+    rows, readouts = np.flatnonzero(readings.target == place), cell.sensors[aim.sensor].readouts
+    targets = list(cell.targets)
+    own = 0 if aim.target is None else targets.index(aim.target)
+    reading, weights = np.empty((len(rows), len(readouts))), np.empty((len(rows), len(readouts)))
+    for column, readout in enumerate(readouts):
+        weights[:, column] = readout.weight * weight[rows, readout.channel]
+        if readout.kind >= COMPONENT:
+            assert readings.reference is not None
+            assert readout.axis is not None
+            reading[:, column] = readings.reference[rows, readout.axis, readout.kind - COMPONENT]
+        else:
+            reading[:, column] = readings.values[rows, readout.channel]
+    count = reading.size
+    return _Scalars(
+        rows=np.repeat(rows, len(readouts)),
+        plane=np.tile([own if r.axis is None else len(targets) + r.axis for r in readouts], len(rows)),
+        mount=np.full(count, list(cell.mounts).index(aim.mount)),
+        sensor=np.full(count, _sensor_keys(cell).index((aim.sensor, aim.session))),
+        readout=np.tile([readout.kind for readout in readouts], len(rows)),
+        reading=reading.ravel(),
+        weight=weights.ravel(),
     )
 
 
@@ -93,15 +131,38 @@ def _segments(chain: Chain) -> tuple[list[list[Motion]], list[bool]]:
     return segments, prismatic
 
 
-def carried_planes(cell: Cell) -> list[tuple[str, Plane]]:
-    """Returns the planes that are carried and their names: the targets, or those the sensor itself is read against."""
-    if cell.sensor.needs_target:
-        return list(cell.targets.items())
-    return [("", readout.plane) for readout in cell.sensor.readouts if readout.plane is not None]
+def carried_planes(cell: Cell) -> list[tuple[str, Target]]:
+    """Returns what is carried and its name: targets, and the world's x = 0, y = 0, z = 0 if some sensor needs them."""
+    against = any(readout.axis is not None for sensor in cell.sensors.values() for readout in sensor.readouts)
+    return [*cell.targets.items(), *((("", plane) for plane in _AXIS_PLANES) if against else ())]
 
 
-def _plane_rows(name: str, plane: Plane, place: dict[str, int]) -> list[int]:
-    return [place.get(f"{name}.{number}", FIXED) for number in ("normal_x", "normal_y", "normal_z", "offset")]
+def _plane_values(plane: Target) -> list[float]:
+    return [*plane.normal, plane.offset] if isinstance(plane, Plane) else [*plane.xyz, 0.0]
+
+
+def _plane_rows(name: str, plane: Target, place: dict[str, int]) -> list[int]:
+    numbers = ("normal_x", "normal_y", "normal_z", "offset") if isinstance(plane, Plane) else ("x", "y", "z", "")
+    return [place.get(f"{name}.{number}", FIXED) for number in numbers]
+
+
+def _sensor_keys(cell: Cell) -> list[tuple[str, str | None]]:
+    """Each sensor in each of its sessions."""
+    return list(dict.fromkeys((aim.sensor, aim.session) for aim in cell.aims))
+
+
+def _sensors(cell: Cell) -> list[Aim]:
+    """An aim of each sensor in each of its sessions."""
+    return [Aim(sensor, "", None, session) for sensor, session in _sensor_keys(cell)]
+
+
+def _sensor_values(cell: Cell, aim: Aim) -> list[float]:
+    sensor = cell.sensors[aim.sensor]
+    return [getattr(sensor, "bias", 0.0) + cell.offsets.get(aim.offset, 0.0), getattr(sensor, "scale", 0.0)]
+
+
+def _sensor_rows(aim: Aim, place: dict[str, int]) -> list[int]:
+    return [place.get(name, FIXED) for name in (f"{aim.sensor}.bias", f"{aim.sensor}.scale", aim.offset)]
 
 
 class CompiledCost:

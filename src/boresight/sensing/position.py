@@ -10,12 +10,9 @@ from typing import ClassVar
 import numpy as np
 from jaxtyping import Float
 
-from boresight.geometry import Plane
 from boresight.kernels.programs import OFFSET
-from boresight.sensing.sensor import Readout, Response
+from boresight.sensing.sensor import Readout, Reference, Response, Target, TargetKind
 from boresight.units import Quantity
-
-_AXIS_PLANES = (Plane((1.0, 0.0, 0.0), 0.0), Plane((0.0, 1.0, 0.0), 0.0), Plane((0.0, 0.0, 1.0), 0.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,8 +26,10 @@ class Position:
 
     type: ClassVar[str] = "position"
     channels: ClassVar[tuple[str, ...]] = ("x", "y", "z")
-    needs_target: ClassVar[bool] = False
-    readouts: ClassVar[tuple[Readout, ...]] = tuple(Readout(OFFSET, plane) for plane in _AXIS_PLANES)
+    columns: ClassVar[tuple[str, ...]] = ("x", "y", "z")
+    aims_at: ClassVar[TargetKind] = None
+    readouts: ClassVar[tuple[Readout, ...]] = tuple(Readout(OFFSET, axis, axis) for axis in range(3))
+    levers: ClassVar[tuple[None, ...]] = (None, None, None)
     numbers: ClassVar[Mapping[str, Quantity]] = MappingProxyType({})
 
     noise_std: float
@@ -40,16 +39,23 @@ class Position:
         """Returns the sensor itself: it has no numbers of its own."""
         return self
 
-    def predict(self, poses: Float[np.ndarray, "rows 4 4"], target: Plane | None) -> Float[np.ndarray, "rows 3"]:
+    def predict(
+        self, poses: Float[np.ndarray, "rows 4 4"], target: Target | None, reference: Reference
+    ) -> Float[np.ndarray, "rows 3"]:
         """Returns the tool's position [m] in the world."""
         return poses[:, :3, 3]
 
-    def respond(self, poses: Float[np.ndarray, "rows 4 4"], target: Plane | None) -> Response:
+    def respond(self, poses: Float[np.ndarray, "rows 4 4"], target: Target | None, reference: Reference) -> Response:
         """Returns the positions and their derivatives: a twist (v, w) moves p by v + w × p."""
         p = poses[:, :3, 3]
-        by_twist = np.zeros((len(p), 3, 6))
-        by_twist[:, :, :3] = np.eye(3)
-        by_twist[:, 0, 4], by_twist[:, 0, 5] = p[:, 2], -p[:, 1]
-        by_twist[:, 1, 3], by_twist[:, 1, 5] = -p[:, 2], p[:, 0]
-        by_twist[:, 2, 3], by_twist[:, 2, 4] = p[:, 1], -p[:, 0]
-        return Response(p, by_twist, np.zeros((len(p), 3, 4)), np.zeros((len(p), 3, 0)))
+        return Response(p, shifts_by_twist(p), np.zeros((len(p), 3, 0)), np.zeros((len(p), 3, 0)))
+
+
+def shifts_by_twist(p: Float[np.ndarray, "rows 3"]) -> Float[np.ndarray, "rows 3 6"]:
+    """Returns the derivative of points p [m] by the twist (v, w) of the body they are fixed to: v + w × p."""
+    by_twist = np.zeros((len(p), 3, 6))
+    by_twist[:, :, :3] = np.eye(3)
+    by_twist[:, 0, 4], by_twist[:, 0, 5] = p[:, 2], -p[:, 1]
+    by_twist[:, 1, 3], by_twist[:, 1, 5] = -p[:, 2], p[:, 0]
+    by_twist[:, 2, 3], by_twist[:, 2, 4] = p[:, 1], -p[:, 0]
+    return by_twist

@@ -40,10 +40,10 @@ def key_of(
         "root": asdict(cell.arm.root),
         "tip": asdict(cell.arm.tip),
         "gravity": list(cell.arm.gravity),
-        "sensor": {"type": cell.sensor.type, **asdict(cell.sensor)},  # type: ignore[call-overload]
+        "sensors": {name: {"type": each.type, **asdict(each)} for name, each in cell.sensors.items()},  # type: ignore[call-overload]
         "base": asdict(cell.base),
-        "mount": asdict(cell.mount),
-        "targets": [[name, list(plane.normal), plane.offset] for name, plane in cell.targets.items()],
+        "mounts": {name: asdict(frame) for name, frame in cell.mounts.items()},
+        "targets": {name: asdict(target) for name, target in cell.targets.items()},
         "freedoms": [[f.parameter, f.within, f.prior_std] for f in freedoms],
         "configurations": None if joints is None or target is None else [joints.tolist(), target.tolist()],
         "settings": dict(numbers),

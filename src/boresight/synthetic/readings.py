@@ -6,12 +6,16 @@ Random numbers come from Philox under (seed, purpose), so that drawing more of o
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from boresight.errors import InputError
-from boresight.sensing import Cell, Readings
+from boresight.geometry import Plane, vector_rotation
+from boresight.sensing import Cell, LaserRanger, PlaneContact, Pose, Readings
+from boresight.sensing.pairs import of_distances, pairs_of
+from boresight.synthetic.touching import touching
 
 _TRUTH, _CONFIGURATIONS, _NOISE = range(3)
 
@@ -50,10 +54,9 @@ def draw_configurations(
     limits = np.clip(cell.arm.limits, -np.pi, np.pi)
     slides = [joint.type == "prismatic" for joint in cell.arm.driven]
     limits[slides] = cell.arm.limits[slides]
-    names = list(cell.targets) if cell.sensor.needs_target else [""]
     joints = np.empty((rows, len(limits)))
-    target = np.arange(rows) % len(names)
-    for place, name in enumerate(names):
+    target = np.arange(rows) % len(cell.aims)
+    for place, aim in enumerate(cell.aims):
         wanted = np.flatnonzero(target == place)
         random = _random(seed, _CONFIGURATIONS, part, place)
         found = np.empty((0, len(limits)))
@@ -61,12 +64,17 @@ def draw_configurations(
             if len(found) >= len(wanted):
                 break
             drawn = random.uniform(limits[:, 0], limits[:, 1], (max(64, 4 * len(wanted)), len(limits)))
-            good = np.all([_sees(each, drawn, place) for each in cells], axis=0)
+            if isinstance(cell.sensors[aim.sensor], PlaneContact):
+                drawn = touching(cells[-1], drawn, place)
+                good = np.all((drawn >= limits[:, 0]) & (drawn <= limits[:, 1]), axis=1)
+            else:
+                good = np.all([_sees(each, drawn, place) for each in cells], axis=0)
             found = np.concatenate([found, drawn[good]])
         if len(found) < len(wanted):
             raise InputError(
-                f"hardly any configuration within the joints' limits sees target {name!r} from at least "
-                f"{NEAREST_M * 1e3:.0f} mm: check the plane's normal and offset, the limits, and the mount's direction"
+                f"hardly any configuration within the joints' limits sees target {aim.target!r} from at least "
+                f"{NEAREST_M * 1e3:.0f} mm, or touches it: check the plane's normal "
+                "and offset, the limits, and the mount's direction"
             )
         joints[wanted] = found[: len(wanted)]
     return joints, target
@@ -84,19 +92,70 @@ def simulated_readings(
         seed: of the noise.
         part: which batch of that seed.
     """
-    random = _random(seed, _NOISE, part)
-    sensor = cell.sensor
-    real = cell.predict(joints, target)
-    std = np.full(real.shape, sensor.noise_std / np.sqrt(sensor.repeats))
-    return Readings(joints, real + random.normal(0.0, std), std, np.asarray(target), np.arange(len(joints)) + 2)
+    exact = exact_readings(cell, joints, target)
+    std = np.where(exact.read, exact.std, 0.0)
+    noise = _random(seed, _NOISE, part).normal(0.0, std)
+    reference, moved, target = exact.reference, np.array(exact.joints, dtype=float), exact.target
+    for place in np.unique(target).tolist():
+        rows, sensor = np.flatnonzero(target == place), cell.sensors[cell.aims[place].sensor]
+        if isinstance(sensor, Pose) and reference is not None:
+            turned = reference[rows] @ vector_rotation(noise[rows, 3:6] / sensor.lever)
+            reference = _with_rows(reference, rows, turned)
+            noise[rows, 3:6] = 0.0
+        elif isinstance(sensor, PlaneContact):  # it reads nothing: noise is where the arm is when contact is felt
+            moved[rows] = touching(cell, moved[rows], place, noise[rows, 0])
+            noise[rows, 0] = -exact.values[rows, 0]
+    return replace(exact, joints=moved, values=exact.values + noise, reference=reference)
+
+
+def _with_rows(array: np.ndarray, rows: np.ndarray, part: np.ndarray) -> np.ndarray:
+    changed = array.copy()
+    changed[rows] = part
+    return changed
+
+
+def exact_readings(cell: Cell, joints: Float[np.ndarray, "rows joints"], target: Int[np.ndarray, "rows"]) -> Readings:
+    """Returns what a cell's sensors would report without noise, with the standard deviations that they state.
+
+    Args:
+        cell: the true cell.
+        joints: configurations [rad or m].
+        target: for each row the index of its aim.
+    """
+    joints, target, since = in_pairs(cell, joints, np.asarray(target))
+    sensors = [cell.sensors[cell.aims[place].sensor] for place in target]
+    std = np.full((len(joints), cell.channels), np.inf)
+    for row, sensor in enumerate(sensors):
+        std[row, : len(sensor.channels)] = sensor.noise_std / np.sqrt(sensor.repeats)
+    turned = np.array([isinstance(sensor, Pose) for sensor in sensors], dtype=bool)
+    reference = None
+    if turned.any():
+        reference = np.where(turned[:, None, None], cell.poses(joints, None, target)[:, :3, :3], np.eye(3))
+    values = cell.predict(joints, target, None, reference, since)
+    return Readings(joints, values, std, target, np.arange(len(joints)) + 2, reference, None, since)
+
+
+def in_pairs(
+    cell: Cell, joints: Float[np.ndarray, "all joints"], target: Int[np.ndarray, "all"]
+) -> tuple[Float[np.ndarray, "rows joints"], Int[np.ndarray, "rows"], Float[np.ndarray, "rows joints"] | None]:
+    """Returns configurations, aims and, where distances between two are read, the other configuration of each."""
+    first, second = pairs_of(cell, target, None)
+    if not len(second):
+        return joints, target, None
+    since = joints.copy()
+    since[first] = joints[second]
+    kept = np.setdiff1d(np.arange(len(joints)), np.setdiff1d(of_distances(cell, target), first))
+    return joints[kept], target[kept], since[kept]
 
 
 def _sees(cell: Cell, joints: Float[np.ndarray, "rows joints"], place: int) -> np.ndarray:
-    if not cell.sensor.needs_target:
+    aim = cell.aims[place]
+    if not isinstance(cell.sensors[aim.sensor], LaserRanger) or aim.target is None:
         return np.ones(len(joints), dtype=bool)
     ranges = cell.predict(joints, np.full(len(joints), place))[:, 0]
-    plane = list(cell.targets.values())[place]
-    cosine = np.abs(cell.poses(joints)[:, :3, 2] @ np.asarray(plane.normal))
+    plane = cell.targets[aim.target]
+    assert isinstance(plane, Plane)
+    cosine = np.abs(cell.poses(joints, None, np.full(len(joints), place))[:, :3, 2] @ np.asarray(plane.normal))
     return (np.nan_to_num(ranges, nan=0.0) > NEAREST_M) & (cosine > GRAZING)
 
 
