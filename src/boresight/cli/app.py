@@ -282,7 +282,7 @@ def reproduce(
 
     Args:
         output: folder for the page; what an earlier run left there is replaced, nothing else.
-        quick: 16 seeds instead of 300: well under a minute instead of eight, on two cores.
+        quick: 16 seeds instead of 300: half a minute instead of six, on two cores.
         seeds: how many seeds, instead.
         seed: the first of them; the same seeds give the same numbers.
         workers: processes; one a core by default.
