@@ -78,7 +78,7 @@ def test_a_bag_whose_topics_are_not_clear_is_an_error_in_one_line(boresight, tmp
 
 def test_the_shipped_bag_becomes_the_campaigns_own_readings(boresight, tmp_path):
     shutil.copytree(EXAMPLES / "ros-bag", tmp_path / "mine")
-    said = boresight("import", "mine/run", "--robot", "mine/robot.yaml", "-o", "mine/observations.csv")
+    said = boresight("import", "mine/run", "--robot", "mine/arm.urdf", "-o", "mine/observations.csv")
     assert said.code == 0
     out_of_the_bag = load_campaign(tmp_path / "mine" / "campaign.yaml").readings
     text = (tmp_path / "mine" / "campaign.yaml").read_text()
@@ -149,4 +149,4 @@ def test_a_source_that_is_not_there(boresight, name):
 
 
 def test_the_robot_of_the_shipped_bag_loads():
-    assert load_robot(EXAMPLES / "ros-bag" / "robot.yaml").joint_names == ("j1", "j2", "j3", "j4", "j5", "j6")
+    assert load_robot(EXAMPLES / "ros-bag" / "arm.urdf").joint_names == ("j1", "j2", "j3", "j4", "j5", "j6")

@@ -183,3 +183,21 @@ def test_draw_wires_find_the_arm_the_post_that_nobody_surveyed_and_what_each_day
     for name, value in expected.items():
         assert abs(found[name].identified - value) < 4.0 * found[name].std
         assert found[name].std < 2e-4
+
+
+@pytest.mark.parametrize(
+    ("name", "before", "after"),
+    [("panda", 2.0, 0.08), ("canadarm2", 20.0, 0.60)],  # the sensor's position error [mm RMS]: at least, at most
+)
+def test_arms_on_the_ground_and_in_orbit_put_the_sensor_where_mujoco_has_it(calibrated, name, before, after):
+    campaign, result = calibrated(name)
+    truth = np.array(json.loads((EXAMPLES / name / "truth.json").read_text())["validation_position"])
+
+    def error_mm(cell):
+        off = cell.poses(campaign.validation.joints)[:, :3, 3] - truth
+        return 1e3 * float(np.sqrt(np.mean(np.sum(off**2, axis=1))))
+
+    assert error_mm(result.nominal) > before
+    assert error_mm(result.cell) < after
+    assert result.verdict.accepted
+    assert (result.beyond is not None and result.beyond.chosen == ("gravity",)) == (name == "panda")
