@@ -1,12 +1,14 @@
 """`boresight export` as people and programs call it."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from boresight.arm.screws import Screw, Screws
 from boresight.files import load_robot
+from boresight.report.stored import load_result
 
 FORMATS = ("urdf", "dh", "ur-kinematics", "ur-calibration-conf", "pal", "json")
 
@@ -166,3 +168,31 @@ def test_a_result_without_a_urdf_leaves_none_of_an_earlier_one(boresight, result
     assert (folder / "robot-calibrated.urdf").exists()
     boresight("calibrate", example("flat-plane").campaign, "--solver", "least-squares", "-o", folder)
     assert not (folder / "robot-calibrated.urdf").exists()
+
+
+@pytest.fixture
+def bent(boresight, example):
+    """The result of an arm that gives way under gravity."""
+    assert boresight("calibrate", example("panda").campaign, "-o", "bent", "--generations", 5).code == 0
+    return load_result(Path("bent"))
+
+
+def test_what_turns_joints_beside_their_readings_is_exported_or_said_to_be_missing(boresight, bent):
+    assert bent.identified.is_bent
+    assert not bent.nominal.is_bent
+    whole = boresight("export", "bent", "--to", "dh")
+    assert "sag:" in whole.out
+    assert whole.err == ""
+    assert json.loads(boresight("export", "bent", "--to", "json").out)["beyond_geometry"]["joints"]["panda_joint2"]
+    for to in ("urdf", "dh --convention standard-dh"):
+        said = boresight("export", "bent", "--to", *to.split())
+        assert said.code == 0
+        assert "This format holds the geometry alone" in said.err
+        assert "sag:" not in said.out
+
+
+def test_a_bent_arm_exported_without_its_bends_moves_as_the_rigid_one(boresight, bent):
+    boresight("export", "bent", "--to", "dh", "--convention", "standard-dh", "-o", "rigid.yaml")
+    joints = np.random.default_rng(0).uniform(-1.5, -0.2, (50, 7))
+    exported = load_robot("rigid.yaml").forward_kinematics(joints)
+    assert np.abs(exported - bent.identified.rigid.forward_kinematics(joints)).max() < 1e-11

@@ -123,6 +123,11 @@ class Arm:
         return self.chain.bends(joints)[:, own]
 
     @property
+    def rigid(self) -> Arm:
+        """The arm whose joints turn by their readings alone."""
+        return replace(self, joints=tuple(replace(joint, harmonics=(), sag=()) for joint in self.joints))
+
+    @property
     def is_bent(self) -> bool:
         """Whether something turns a joint beside its reading."""
         return any(joint.harmonics or joint.sag for joint in self.joints)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import csv
 import io
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
-from boresight.arm import Arm
+from boresight.arm import HARMONICS, SAG, Arm
 from boresight.arm.common_normals import modified_dh, standard_dh
 from boresight.arm.conventions import Convention
 from boresight.arm.screws import Screws, screws_of
@@ -60,6 +60,20 @@ def export(stored: StoredResult, to: Format, convention: Convention | None = Non
     Raises:
         InputError: that format cannot hold this arm exactly.
     """
+    if not stored.identified.is_bent:
+        return _exported(stored, to, convention, table)
+    if to == "json" or (to == "dh" and not table and convention in (None, stored.identified.convention)):
+        return _exported(stored, to, convention, table)
+    rigid = replace(stored, nominal=stored.nominal.rigid, identified=stored.identified.rigid)
+    found = _exported(rigid, to, convention, table)
+    note = (
+        "This format holds the geometry alone; what turns the joints beside their readings, gravity's sag and "
+        "harmonics, is in robot-calibrated.yaml."
+    )
+    return replace(found, notes=(*found.notes, note))
+
+
+def _exported(stored: StoredResult, to: Format, convention: Convention | None, table: bool) -> Export:
     if to == "urdf":
         return Export(stored.urdf if stored.urdf is not None else _new_urdf(stored))
     if to == "dh":
@@ -147,10 +161,25 @@ def _document(stored: StoredResult) -> dict[str, Any]:
         "name": stored.name,
         "accepted": stored.accepted,
         "units": {"length": "m", "angle": "rad"},
-        "nominal": _forms(stored.nominal),
-        "identified": _forms(stored.identified),
+        "nominal": _forms(stored.nominal.rigid),
+        "identified": _forms(stored.identified.rigid),
+        "beyond_geometry": _bends(stored.identified),
         "urdf_origins": list(stored.origins) or None,
     }
+
+
+def _bends(arm: Arm) -> dict[str, Any] | None:
+    """Returns what turns the joints beside their readings [rad]; None where nothing does."""
+    if not arm.is_bent:
+        return None
+    joints = {
+        joint.name: {
+            **{wave: float(height) for wave, height in zip(HARMONICS, joint.harmonics, strict=False)},
+            **{f"{SAG}{link}": float(turn) for link, turn in joint.sag},
+        }
+        for joint in arm.joints
+    }
+    return {"gravity": list(map(float, arm.gravity)), "joints": joints}
 
 
 def _forms(arm: Arm) -> dict[str, Any]:

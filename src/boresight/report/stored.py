@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from boresight.arm import LINK_NUMBERS, Arm
+from boresight.arm import HARMONICS, LINK_NUMBERS, SAG, Arm, Joint
 from boresight.errors import InputError, did_you_mean
 from boresight.files import load_robot
 from boresight.files.problems import printable
@@ -97,11 +97,18 @@ def _document(folder: Path) -> dict[str, Any]:
 
 
 def _with_numbers(arm: Arm, numbers: Mapping[str, float]) -> Arm:
-    joints = tuple(
-        joint.with_numbers({number: float(numbers[f"{joint.name}.{number}"]) for number in LINK_NUMBERS})
-        for joint in arm.joints
+    return replace(arm, joints=tuple(_joint_with_numbers(joint, numbers) for joint in arm.joints))
+
+
+def _joint_with_numbers(joint: Joint, numbers: Mapping[str, float]) -> Joint:
+    """Returns a joint with other numbers; what turns it beside its reading is not there unless they name it."""
+    waves = tuple(float(numbers.get(f"{joint.name}.{wave}") or 0.0) for wave in HARMONICS)
+    sag = ((link, float(numbers.get(f"{joint.name}.{SAG}{link}") or 0.0)) for link, _ in joint.sag)
+    return replace(
+        joint.with_numbers({number: float(numbers[f"{joint.name}.{number}"]) for number in LINK_NUMBERS}),
+        harmonics=waves if any(waves) else (),
+        sag=tuple((link, turn) for link, turn in sag if turn),
     )
-    return replace(arm, joints=joints)
 
 
 def _bytes(path: Path) -> bytes:
