@@ -10,15 +10,17 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from boresight import __version__
 from boresight.calibration import Solver, calibrate
 from boresight.cli.codes import LARGEST_SEED, REJECTED
+from boresight.cli.compiling import told_of_compiling
 from boresight.cli.consoles import PipedConsole, print_plain
 from boresight.errors import InputError
 from boresight.files import load_campaign
-from boresight.kernels.compiling import first_compile_ahead
 from boresight.kernels.evolving import evolve_generations
+from boresight.kernels.linearising import linearise_rows
 from boresight.report.document import result_json
 from boresight.report.folder import check_writable, write_result
 from boresight.report.summary import print_summary
 from boresight.search import STRATEGIES, DifferentialEvolution, Stops
+from boresight.sensing.linear import is_compiled
 
 MOST_MEMBERS, MOST_GENERATIONS = 1_000_000, 1_000_000_000
 """Beyond these memory or patience would end first."""
@@ -42,8 +44,8 @@ def run_calibrate(
     check_writable(folder)
     errors = Console(stderr=True)
     evolves = solver != "least-squares" or bool(campaign.unknown)
-    if evolves and first_compile_ahead(evolve_generations):
-        errors.print("Compiling the search for this machine; this happens once and takes about ten seconds.")
+    linearises = is_compiled(campaign.cell)
+    told_of_compiling(*([linearise_rows] if linearises else []), *([evolve_generations] if evolves else []))
     with Progress(
         TextColumn("evolution"),
         BarColumn(),

@@ -10,13 +10,13 @@ from rich.console import Console
 from rich.markup import escape
 
 from boresight.cli.codes import NOT_REACHED
+from boresight.cli.compiling import told_of_compiling
 from boresight.cli.consoles import PipedConsole, print_plain
 from boresight.compensation import Compensation, Reached, compensate
 from boresight.errors import InputError, OutputError
 from boresight.files.commands import commands_csv
 from boresight.files.poses import read_poses
 from boresight.files.writing import write_atomically
-from boresight.kernels.compiling import first_compile_ahead
 from boresight.kernels.reaching import reach
 from boresight.report.stored import load_result
 from boresight.units import Units, in_millimetres
@@ -46,8 +46,7 @@ def run_compensate(
     if target.exists() and path.exists() and target.samefile(path):
         raise OutputError(f"{target}: is the file of the poses itself; name another file with -o")
     wanted = read_poses(path, stored.identified, units)
-    if first_compile_ahead(reach):
-        Console(stderr=True).print("Compiling for this machine; this happens once and takes a few seconds.")
+    told_of_compiling(reach)
     found = compensate(
         stored.nominal,
         stored.identified,

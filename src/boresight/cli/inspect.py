@@ -7,10 +7,13 @@ from pathlib import Path
 from boresight import __version__
 from boresight.calibration.inspect import inspect
 from boresight.cli.codes import LARGEST_SEED
+from boresight.cli.compiling import told_of_compiling
 from boresight.cli.consoles import PipedConsole, print_plain
 from boresight.errors import InputError
 from boresight.files import load_campaign
+from boresight.kernels.linearising import linearise_rows
 from boresight.report.inspection import inspection_json, print_inspection
+from boresight.sensing.linear import is_compiled
 
 MOST_ROWS = 100_000
 """More configurations than anyone plans by hand; what can be known settles long before."""
@@ -25,7 +28,9 @@ def run_inspect(path: Path, *, rows: int | None, seed: int, as_json: bool) -> in
         problems.append(f"--seed: expected a whole number from 0 to {LARGEST_SEED}, got {seed}")
     if problems:
         raise InputError(problems)
-    found = inspect(load_campaign(path), rows=rows, seed=seed)
+    campaign = load_campaign(path)
+    told_of_compiling(*([linearise_rows] if is_compiled(campaign.cell) else []))
+    found = inspect(campaign, rows=rows, seed=seed)
     if as_json:
         print_plain(inspection_json(found, __version__))
     else:

@@ -11,10 +11,11 @@ from rich.table import Table
 
 from boresight import __version__
 from boresight.cli.codes import LARGEST_SEED
+from boresight.cli.compiling import told_of_compiling
 from boresight.cli.consoles import PipedConsole
 from boresight.errors import InputError
-from boresight.kernels.compiling import first_compile_ahead
 from boresight.kernels.evolving import evolve_generations
+from boresight.kernels.linearising import linearise_rows
 from boresight.reproduction import Document, compose, reproduce, write_reproduction
 from boresight.reproduction.folder import check_writable
 from boresight.reproduction.reproduce import QUICK_SEEDS, SEEDS
@@ -31,8 +32,7 @@ def run_reproduce(output: Path, *, quick: bool, seeds: int | None, seed: int, wo
     check_writable(output)
     count = seeds or (QUICK_SEEDS if quick else SEEDS)
     errors = Console(stderr=True)
-    if first_compile_ahead(evolve_generations):
-        errors.print("Compiling the search for this machine; this happens once and takes about ten seconds.")
+    told_of_compiling(linearise_rows, evolve_generations)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("seeds"))
     with Progress(
         *columns,

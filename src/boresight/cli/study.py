@@ -13,12 +13,13 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from boresight import __version__
 from boresight.cli.codes import INTERRUPTED
+from boresight.cli.compiling import told_of_compiling
 from boresight.cli.consoles import PipedConsole, print_plain
 from boresight.errors import InputError, OutputError
 from boresight.files import load_study
 from boresight.files.study_schemas import MOST_SEEDS
-from boresight.kernels.compiling import first_compile_ahead
 from boresight.kernels.evolving import evolve_generations
+from boresight.kernels.linearising import linearise_rows
 from boresight.report.study import print_study, study_json, write_study
 from boresight.studies import Store, Study, run, study, summarise
 from boresight.studies.study import Shard
@@ -75,9 +76,9 @@ def run_study(
 def _run(asked: Study, file: Path, workers, scheduler, part: Shard, errors: Console, *, quiet: bool):
     """Returns whether the study was interrupted, and its summary if not."""
     evolving = next((point for point in asked.points if point.evolves), None)
-    if evolving is not None and scheduler is None and first_compile_ahead(evolve_generations):
-        errors.print("Compiling the search for this machine; this happens once and takes about ten seconds.")
-        run(evolving, 0)  # here, so that the workers find it on disk and need not each do it
+    needed = (linearise_rows, *([evolve_generations] if evolving else []))
+    if scheduler is None and told_of_compiling(*needed):
+        run(evolving or asked.points[0], 0)  # here, so that the workers find it on disk and need not each do it
     with _progress(asked.name, errors, hidden=quiet) as show, _one_interrupt():
         try:
             return False, study(asked, file, workers=workers, scheduler=scheduler, shard=part, on_progress=show)

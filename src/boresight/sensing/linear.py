@@ -97,10 +97,10 @@ class ReferenceModel:
 
 def model_of(cell: Cell, readings: Readings, free: Sequence[str]) -> CompiledModel | ReferenceModel:
     """Returns the fastest model of a cell's readings."""
-    return (CompiledModel if _is_compiled(cell) else ReferenceModel)(cell, readings, free)
+    return (CompiledModel if is_compiled(cell) else ReferenceModel)(cell, readings, free)
 
 
-def _is_compiled(cell: Cell) -> bool:
+def is_compiled(cell: Cell) -> bool:
     """Returns whether a cell is of the kind that the compiled loops linearise.
 
     One sensor on one mount, whose every channel is a plane's range or offset; an arm that does not bend.
