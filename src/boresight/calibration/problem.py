@@ -157,7 +157,11 @@ class Problem:
 
     def weighed(self, row_weight: Float[np.ndarray, " rows"], model_std: float) -> Problem:
         """Returns the same problem with other rows' weights and another standard deviation [m] of the model's own."""
-        return replace(self, row_weights=row_weight, model_std=model_std)
+        problem = replace(self, row_weights=row_weight, model_std=model_std)
+        problem.__dict__["model"] = (
+            self.model
+        )  # which weights do not change, and which a robust fit asks for each round
+        return problem
 
     def on(self, rows: Float[np.ndarray, "some"]) -> Problem:
         """Returns the same problem on some of the rows."""

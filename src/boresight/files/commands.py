@@ -8,7 +8,9 @@ import io
 import numpy as np
 
 from boresight.compensation import Compensation, Reached
-from boresight.files.poses import POSITION, QUATERNION
+from boresight.files.columns import QUATERNION
+from boresight.files.poses import POSITION
+from boresight.geometry import matrix_quaternion
 from boresight.units import Units
 
 _WORDS = {Reached.YES: "yes", Reached.NEAR_SINGULAR: "near-singular", Reached.AT_A_LIMIT: "at-limit", Reached.NO: "no"}
@@ -26,12 +28,9 @@ def commands_csv(
         controller_poses: whether to write poses for a controller with the nominal model rather than joint readings.
     """
     if controller_poses:
-        from scipy.spatial.transform import Rotation
-
         poses = found.controller_poses
-        turns = Rotation.from_matrix(poses[:, :3, :3]).as_quat(canonical=True)[:, [3, 0, 1, 2]]
         names: tuple[str, ...] = (*POSITION, *QUATERNION)
-        numbers = np.hstack([poses[:, :3, 3] / units.metres, turns])
+        numbers = np.hstack([poses[:, :3, 3] / units.metres, matrix_quaternion(poses[:, :3, :3])])
     else:
         names = found.calibrated.joint_names
         scales = [units.radians if joint.type == "revolute" else units.metres for joint in found.calibrated.driven]

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from boresight.errors import did_you_mean
 from boresight.files.documents import Document
 from boresight.files.problems import Problems, listed, shown
-from boresight.files.schemas import CampaignEntry, FrameEntry, PointEntry, SensorEntry
+from boresight.files.schemas import CampaignEntry, FrameEntry, PlaceEntry, PointEntry, SensorEntry
 from boresight.geometry import Frame, Plane, Point
 from boresight.sensing import Aim, Distances, DrawWire, LaserRanger, PlaneContact, Pose, Position, Sensor, Target
 from boresight.sensing.aims import targets_of
@@ -32,7 +32,7 @@ def sensor_of(entry: SensorEntry, units: Units) -> Sensor:
     return kinds[entry.type](noise, repeats)
 
 
-def frame_of(entry: FrameEntry, units: Units) -> Frame:
+def frame_of(entry: FrameEntry | PlaceEntry, units: Units) -> Frame:
     """Returns the frame of an entry; what is unknown stands at zero."""
     x, y, z = (value * units.metres for value in entry.xyz or (0.0, 0.0, 0.0))
     roll, pitch, yaw = (value * units.radians for value in entry.rpy or (0.0, 0.0, 0.0))

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,13 +11,15 @@ from jaxtyping import Float
 
 from boresight.arm import Arm
 from boresight.errors import InputError, did_you_mean
-from boresight.files.problems import Problems, listed, printable, shown
+from boresight.files.columns import QUATERNION
+from boresight.files.problems import Problems, listed, shown
 from boresight.files.schemas import LARGEST
 from boresight.files.sources import Source, read_source
+from boresight.files.tables import rows_of_cells
+from boresight.geometry import quaternion_matrix
 from boresight.units import Units
 
 POSITION = ("x", "y", "z")
-QUATERNION = ("qw", "qx", "qy", "qz")
 LIMIT_MIB = 512
 
 _NORM = 0.01
@@ -77,14 +77,7 @@ def read_poses(path: Path | str, arm: Arm, units: Units) -> WantedPoses:
 
 def _cells(source: Source) -> tuple[list[str], list[list[str]], list[int]]:
     """Returns the header, the rows and their lines; `#` begins a comment."""
-    try:
-        text = io.StringIO(source.content.decode("utf-8-sig"), newline=None)
-        reader = csv.reader((line.partition("#")[0] for line in text), strict=True)
-        found = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
-    except UnicodeDecodeError:
-        raise InputError(f"{source.name}: the file is not UTF-8 text; save it as CSV in UTF-8") from None
-    except csv.Error as error:
-        raise InputError(printable(f"{source.name}: not valid CSV: {error}")) from None
+    found = [(line, row) for line, row in rows_of_cells(source) if any(cell.strip() for cell in row)]
     if len(found) < 2:
         raise InputError(f"{source.name}: there are no poses in it; expected a row of column names and then poses")
     header = [name.strip() for name in found[0][1]]
@@ -140,11 +133,9 @@ def _numbers(
 
 def _rotations(quaternions: np.ndarray, lines: list[int], name: str) -> Float[np.ndarray, "rows 3 3"]:
     """Returns the rotations of quaternions (w first) brought to length 1."""
-    from scipy.spatial.transform import Rotation
-
     norm = np.linalg.norm(quaternions, axis=1)
     problems = Problems()
     for row in np.flatnonzero(np.abs(norm - 1.0) > _NORM):
         problems.add(f"{name}, line {lines[row]}: the quaternion's length is {norm[row]:.4g}; expected 1")
     problems.raise_if_any()
-    return np.asarray(Rotation.from_quat(quaternions[:, [1, 2, 3, 0]]).as_matrix())
+    return quaternion_matrix(quaternions)

@@ -9,9 +9,10 @@ from pathlib import Path
 from boresight.arm import DOWN, HARMONICS, LINK_NUMBERS, Arm, Joint
 from boresight.errors import InputError
 from boresight.files.documents import Document, read_document
+from boresight.files.equipment import frame_of
 from boresight.files.explaining import validated
 from boresight.files.problems import Problems, shown
-from boresight.files.schemas import JointEntry, PlaceEntry, RobotEntry
+from boresight.files.schemas import JointEntry, RobotEntry
 from boresight.files.urdf import SUFFIXES, read_urdf
 from boresight.geometry import Frame
 from boresight.units import Units
@@ -52,7 +53,7 @@ def arm_of(document: Document) -> Arm:
     problems.raise_if_any()
     units = entry.units.value
     joints = tuple(_joint(joint, units, entry) for joint in entry.joints)
-    root, tip = (_frame(place, units) for place in (entry.root, entry.tip))
+    root, tip = (frame_of(place, units) for place in (entry.root, entry.tip))
     return Arm(entry.name, joints, entry.convention, root, tip, entry.gravity or DOWN)
 
 
@@ -87,12 +88,6 @@ def _place(name: str, frame: Frame) -> list[str]:
     """Returns the line of a frame, or none for one that is nothing."""
     xyz, rpy = ([float(value) for value in part] for part in (frame.xyz, frame.rpy))
     return [f"{name}: {{xyz: {xyz}, rpy: {rpy}}}"] if frame != Frame() else []
-
-
-def _frame(entry: PlaceEntry, units: Units) -> Frame:
-    x, y, z = (value * units.metres for value in entry.xyz)
-    roll, pitch, yaw = (value * units.radians for value in entry.rpy)
-    return Frame((x, y, z), (roll, pitch, yaw))
 
 
 def _further(joint: Joint) -> str:

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import os
-import shutil
-import tempfile
 from pathlib import Path
 
 from boresight.calibration.result import Result
 from boresight.errors import OutputError
 from boresight.files import dump_robot
+from boresight.files.folders import check_folder, staged
 from boresight.files.splicing import calibrated_urdf
 from boresight.report.document import SCHEMA, result_json
 from boresight.report.page import render_page
@@ -60,7 +58,7 @@ def write_result(result: Result, folder: Path, version: str) -> Path:
     }
     try:
         chosen.mkdir(parents=True, exist_ok=True)
-        with _staging(chosen) as staging:
+        with staged(chosen) as staging:
             for name, content in contents.items():
                 if isinstance(content, bytes):
                     (staging / name).write_bytes(content)
@@ -81,17 +79,7 @@ def check_writable(folder: Path) -> None:
     Raises:
         OutputError: it cannot, or the folder holds files of the same names that are not a result.
     """
-    if folder.exists() and not folder.is_dir():
-        raise OutputError(f"{folder}: is a file; name a folder for the result with -o")
-    existing = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
-    if not existing.is_dir() or not os.access(existing, os.W_OK | os.X_OK):
-        raise OutputError(f"{folder}: cannot be written; name another folder for the result with -o")
-    taken = [name for name in _OURS if (folder / name).exists()]
-    if taken and _schema(folder) is None:
-        raise OutputError(
-            f"{folder}: holds {', '.join(taken)} but no Boresight result; nothing is overwritten: name another folder "
-            "with -o"
-        )
+    check_folder(folder, "result", _OURS, lambda where: _schema(where) is not None, "Boresight result")
 
 
 def _urdf(result: Result) -> dict[str, bytes]:
@@ -113,16 +101,6 @@ def _schema(folder: Path) -> str | None:
     except (OSError, ValueError, AttributeError):
         return None
     return schema if isinstance(schema, str) and schema.split("/")[0] == SCHEMA.split("/")[0] else None
-
-
-@contextlib.contextmanager
-def _staging(folder: Path):
-    """Yields a temporary folder on the same file system, and removes it."""
-    staging = Path(tempfile.mkdtemp(prefix=".boresight-", dir=folder))
-    try:
-        yield staging
-    finally:
-        shutil.rmtree(staging, ignore_errors=True)
 
 
 def _robot_comment(result: Result) -> str:

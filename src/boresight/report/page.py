@@ -195,16 +195,21 @@ def _times(ratio: float) -> str:
     return f"{ratio:.2f}" if ratio < 2.0 else f"{ratio:.1f}" if ratio < 10.0 else f"{ratio:,.0f}"
 
 
-def _environment() -> Environment:
-    from jinja2 import Environment, PackageLoader, StrictUndefined  # only a report needs it
+def page_environment(*packages: str) -> Environment:
+    """Returns what fills the templates of packages, the first that has one; all that is inserted is escaped."""
+    from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined  # only a report needs it
 
-    environment = Environment(
-        loader=PackageLoader("boresight.report"),
+    return Environment(
+        loader=ChoiceLoader([PackageLoader(package) for package in packages]),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+
+
+def _environment() -> Environment:
+    environment = page_environment("boresight.report")
     environment.filters |= {
         "length": millimetres,
         "amount": amount,

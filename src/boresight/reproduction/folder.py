@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import os
-import shutil
-import tempfile
 from pathlib import Path
 
 from boresight.errors import OutputError
+from boresight.files.folders import check_folder, staged
 from boresight.plots import save
 from boresight.reproduction.document import Document
 from boresight.reproduction.page import as_html, as_markdown
@@ -24,17 +23,7 @@ def check_writable(folder: Path) -> None:
     Raises:
         OutputError: it cannot, or the folder holds files of the same names that are not a reproduction.
     """
-    if folder.exists() and not folder.is_dir():
-        raise OutputError(f"{folder}: is a file; name a folder for the reproduction with -o")
-    existing = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
-    if not existing.is_dir() or not os.access(existing, os.W_OK | os.X_OK):
-        raise OutputError(f"{folder}: cannot be written; name another folder for the reproduction with -o")
-    taken = [name for name in _OURS if (folder / name).exists()]
-    if taken and not _is_ours(folder):
-        raise OutputError(
-            f"{folder}: holds {', '.join(taken)} but no reproduction; nothing is overwritten: name another folder with "
-            "-o"
-        )
+    check_folder(folder, "reproduction", _OURS, _is_ours, "reproduction")
 
 
 def write_reproduction(page: Document, folder: Path, version: str) -> Path:
@@ -53,13 +42,10 @@ def write_reproduction(page: Document, folder: Path, version: str) -> Path:
     check_writable(folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        staging = Path(tempfile.mkdtemp(prefix=".boresight-", dir=folder))
-        try:
+        with staged(folder) as staging:
             for file in _stage(page, staging, version):
                 (folder / file).parent.mkdir(exist_ok=True)
                 os.replace(staging / file, folder / file)
-        finally:
-            shutil.rmtree(staging, ignore_errors=True)
     except OSError as error:
         raise OutputError(f"{folder}: cannot write the reproduction: {error.strerror or error}") from error
     return folder / PAGE

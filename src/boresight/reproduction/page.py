@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from boresight.report.page import page_environment
 from boresight.reproduction.document import Block, Document, Points, Text
 from boresight.reproduction.pictures import Picture
 from boresight.reproduction.verdicts import Verdict
@@ -61,7 +62,6 @@ def _rows(header: list[str], rows: list) -> str:
 
 
 def _environment() -> Environment:
-    from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
     from markupsafe import Markup, escape
 
     def inline(words: str) -> Markup:
@@ -69,13 +69,7 @@ def _environment() -> Environment:
         text = re.sub(r"(?<=\d) (?=%|mm|mrad)", "\u00a0", str(escape(words)))
         return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", text))
 
-    environment = Environment(
-        loader=ChoiceLoader([PackageLoader("boresight.reproduction"), PackageLoader("boresight.report")]),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+    environment = page_environment("boresight.reproduction", "boresight.report")
     environment.filters |= {
         "inline": inline,
         "kind": lambda block: type(block).__name__,

@@ -29,14 +29,7 @@ Line = tuple[str, Sequence[PointSummary]]
 
 def accuracy_figure(summary: Summary) -> Figure:
     """Returns the tool's position error against what is varied: medians, and where 80 % of the campaigns lie."""
-
-    def draw(axes: Axes, x: np.ndarray, line: Sequence[PointSummary], look: dict[str, Any]) -> None:
-        spread = [each.spread("position_rms") for each in line]
-        low, median, high = (1e3 * np.array([getattr(s, part) for s in spread]) for part in ("low", "median", "high"))
-        bars = np.maximum([median - low, high - median], 0.0)
-        axes.errorbar(x, median, yerr=bars, capsize=2.5, elinewidth=0.9, **look)
-
-    figure = _figure(summary, draw, "position error of the tool, mm (RMS)")
+    figure = _figure(summary, _medians_of("position_rms"), "position error of the tool, mm (RMS)")
     drawn = [axes for axes in figure.axes if axes.has_data()]
     for axes in drawn:
         _logarithmic(axes)
@@ -59,19 +52,24 @@ def reliability_figure(summary: Summary) -> Figure:
 
 def effort_figure(summary: Summary) -> Figure:
     """Returns the time of a search against what is varied: medians, and where 80 % lie."""
-
-    def draw(axes: Axes, x: np.ndarray, line: Sequence[PointSummary], look: dict[str, Any]) -> None:
-        spread = [each.spread("seconds") for each in line]
-        low, median, high = (1e3 * np.array([getattr(s, part) for s in spread]) for part in ("low", "median", "high"))
-        bars = np.maximum([median - low, high - median], 0.0)
-        axes.errorbar(x, median, yerr=bars, capsize=2.5, elinewidth=0.9, **look)
-
-    figure = _figure(summary, draw, "time of one search, ms")
+    figure = _figure(summary, _medians_of("seconds"), "time of one search, ms")
     drawn = [axes for axes in figure.axes if axes.has_data()]
     _alike(drawn)
     for axes in drawn:
         axes.set_ylim(bottom=0.0)
     return figure
+
+
+def _medians_of(outcome: str) -> Callable[..., None]:
+    """Returns what draws a line of medians of an outcome, in thousandths, with bars that hold 80 %."""
+
+    def draw(axes: Axes, x: np.ndarray, line: Sequence[PointSummary], look: dict[str, Any]) -> None:
+        spread = [each.spread(outcome) for each in line]
+        low, median, high = (1e3 * np.array([getattr(s, part) for s in spread]) for part in ("low", "median", "high"))
+        bars = np.maximum([median - low, high - median], 0.0)
+        axes.errorbar(x, median, yerr=bars, capsize=2.5, elinewidth=0.9, **look)
+
+    return draw
 
 
 def _alike(drawn: Sequence[Axes]) -> None:
