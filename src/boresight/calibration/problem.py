@@ -158,9 +158,7 @@ class Problem:
     def weighed(self, row_weight: Float[np.ndarray, " rows"], model_std: float) -> Problem:
         """Returns the same problem with other rows' weights and another standard deviation [m] of the model's own."""
         problem = replace(self, row_weights=row_weight, model_std=model_std)
-        problem.__dict__["model"] = (
-            self.model
-        )  # which weights do not change, and which a robust fit asks for each round
+        problem.__dict__["model"] = self.model  # weights do not change it, and a robust fit weighs every round
         return problem
 
     def on(self, rows: Float[np.ndarray, "some"]) -> Problem:
