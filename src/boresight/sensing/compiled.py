@@ -175,8 +175,8 @@ class CompiledCost:
     """
 
     def __init__(self, program: Program, rows: Rows) -> None:
-        self._program = program
-        self._rows = rows
+        self.program = program
+        self.rows = rows
         self._work = workspace(program)
 
     def __call__(self, members: Float[np.ndarray, "members parameters"]) -> Float[np.ndarray, "members"]:
@@ -184,7 +184,7 @@ class CompiledCost:
         lanes = np.zeros((max(members.shape[1], 1), padded(len(members))))
         lanes[: members.shape[1], : len(members)] = members.T
         costs = np.empty(lanes.shape[1])
-        sweep(self._program, self._rows, self._work, lanes, costs)
+        sweep(self.program, self.rows, self._work, lanes, costs)
         return costs[: len(members)]
 
     def load(self, settings: DifferentialEvolution, box: Box) -> None:
@@ -209,8 +209,8 @@ class CompiledCost:
         lanes = aligned(parameters, padded(count))
         history = np.empty((generations, 2))
         done, stale, reference = evolve_generations(
-            self._program,
-            self._rows,
+            self.program,
+            self.rows,
             self._work,
             settings.breeding(box),
             np.uint64(population.key),

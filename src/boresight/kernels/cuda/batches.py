@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -140,11 +140,11 @@ def batch_of(tasks: Sequence[Task], real: type[np.floating]) -> Batch:
     """Returns tasks of one kind as arrays in a precision."""
     first = tasks[0]
 
-    def stacked(parts: Sequence[np.ndarray | float]) -> np.ndarray:
+    def stacked(parts: Sequence[Any]) -> Any:
         array = np.stack([np.asarray(part) for part in parts])
         return array.astype(np.int32 if array.dtype.kind in "iu" else real)
 
-    def of_programs(name: str) -> np.ndarray:
+    def of_programs(name: str) -> Any:
         if name in _SAME:
             array = getattr(first.program, name)
             return array if array.dtype == np.bool_ else array.astype(np.int32)

@@ -26,7 +26,7 @@ def require_card() -> str:
     try:
         name = cuda.get_current_device().name
     except CudaSupportError as error:
-        said = " ".join(str(error).split())
+        said = " ".join(str(error).split()).removeprefix("Error at driver init: ").split(". ")[0].strip(" .:")
         raise BoresightError(
             f"--device cuda needs an NVIDIA card and its driver, and none was found ({said}). "
             "Use --device cpu, or run `nvidia-smi` to see what the system knows of its cards"

@@ -16,8 +16,8 @@ from boresight.kernels.random import draw, high_uniform, low_uniform, subkey
 
 
 @lru_cache(maxsize=64)
-def evolving_kernel(shape: Shape, real: type[np.floating]) -> Any:
-    """Returns the kernel of a shape in a precision; the first call with it compiles it.
+def evolving_kernel(shape: Shape, precision: str) -> Any:
+    """Returns the kernel of a shape in `float64` or `float32`; the first call with it compiles it.
 
     Its arguments: `program` and `rows` of a batch; `lower` and `upper` (runs, parameters); `strategy` (K, F, its
     spread, CR) and whether mutants start from the member itself, whether differences point downhill; `keys` (runs,);
@@ -27,6 +27,7 @@ def evolving_kernel(shape: Shape, real: type[np.floating]) -> Any:
     (runs,) generations of this launch, `history` (runs, generations, 2); work space `trials` like members,
     `trial_costs` like costs, `leaders` (runs, elite).
     """
+    real = np.float64 if precision == "float64" else np.float32
     parameters, count, threads, elite = shape.parameters, shape.members, shape.threads, shape.elite
     in_shared = shape.in_shared(real)
     half = 1

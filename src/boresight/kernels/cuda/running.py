@@ -79,7 +79,7 @@ def _evolve(
     on_progress: Callable[[int, float], None] | None,
 ) -> list[Run]:
     shape, runs = batch.shape, len(batch.keys)
-    kernel = evolving_kernel(shape, real)
+    kernel = evolving_kernel(shape, np.dtype(real).name)
     program = type(batch.program)(*(cuda.to_device(array) for array in batch.program))
     rows = type(batch.rows)(*(cuda.to_device(array) for array in batch.rows))
     lower, upper, keys = (cuda.to_device(a) for a in (batch.breeding.lower, batch.breeding.upper, batch.keys))
