@@ -1,10 +1,6 @@
 """These tests need a card: a real one, or the simulator that `tests/test_simulated_card.py` starts them in."""
 
-import os
-
 import pytest
-
-SIMULATED = os.environ.get("NUMBA_ENABLE_CUDASIM") == "1"
 
 
 def _reason() -> str | None:

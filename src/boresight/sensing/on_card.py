@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
+from jaxtyping import Float
 
+from boresight.kernels.breeding import Breeding
 from boresight.kernels.cuda.batches import Task
 from boresight.kernels.random import run_key
 from boresight.search import Box, Device, DifferentialEvolution, Evolved, Population, Stops
 from boresight.sensing.compiled import CompiledCost
+
+if TYPE_CHECKING:
+    from boresight.kernels.cuda.running import Refined
 
 
 def task_of(cost: CompiledCost, box: Box, settings: DifferentialEvolution, seed: int) -> Task:
@@ -70,3 +76,26 @@ def evolve_on_card(
             )
         )
     return found
+
+
+def refine_on_card(
+    costs: Sequence[CompiledCost], starts: Sequence[Float[np.ndarray, " _"]], steps: int = 50
+) -> list[Refined]:
+    """Returns where least squares ends for each of many small problems, in double precision.
+
+    Args:
+        costs: what is minimised: plain squares of ranges and offsets, and of corrections.
+        starts: where each begins.
+        steps: most steps to try.
+
+    Raises:
+        BoresightError: there is no card, or a cost is of another sort.
+    """
+    from boresight.kernels.cuda.devices import require_card
+
+    require_card()
+    from boresight.kernels.cuda.running import refine_tasks
+
+    nothing = Breeding(False, 0.0, 0.0, 0.0, 0.0, False, 1, np.empty(0), np.empty(0))
+    tasks = [Task(cost.program, cost.rows, nothing, 0, 0) for cost in costs]
+    return refine_tasks(tasks, starts, steps)

@@ -37,6 +37,7 @@ class Shape(NamedTuple):
         joints: of the arm.
         segments: joints, mounts and the base.
         mounts: where a sensor may sit.
+        motions: elementary ones, in all segments.
         planes: planes and points.
         sensors: sensors, in each session.
         parameters: free ones.
@@ -49,6 +50,7 @@ class Shape(NamedTuple):
     joints: int
     segments: int
     mounts: int
+    motions: int
     planes: int
     sensors: int
     parameters: int
@@ -98,6 +100,7 @@ class Task(NamedTuple):
             joints=joints,
             segments=segments,
             mounts=segments - joints,
+            motions=len(program.motion_kind),
             planes=len(program.plane),
             sensors=len(program.sensor_value),
             parameters=len(program.prior_weight),

@@ -1,4 +1,4 @@
-"""Batches put on the card, evolved in stretches, and brought back."""
+"""Batches put on the card, evolved in stretches or refined, and brought back."""
 
 from __future__ import annotations
 
@@ -8,8 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from numba import cuda
 
+from boresight.errors import BoresightError
 from boresight.kernels.cuda.batches import Batch, Task, batch_of
 from boresight.kernels.cuda.evolving import evolving_kernel
+from boresight.kernels.cuda.refining import refining_kernel, refining_threads
+from boresight.kernels.programs import POINT
 
 _MEMORY_BYTES = 2**30
 """What a launch may take on the card."""
@@ -63,6 +66,65 @@ def evolve_tasks(
     return [found[place] for place in range(len(tasks))]
 
 
+class Refined(NamedTuple):
+    """Where least squares ended for one task.
+
+    Attributes:
+        x: (parameters,) there.
+        cost: there.
+        steps: tried.
+    """
+
+    x: np.ndarray
+    cost: float
+    steps: int
+
+
+def refine_tasks(tasks: Sequence[Task], starts: Sequence[np.ndarray], most: int) -> list[Refined]:
+    """Returns where Levenberg-Marquardt ends for every task, in their order.
+
+    Args:
+        tasks: of any kinds, whose readings are ranges to planes or offsets from them, without a robust loss.
+        starts: (parameters,) where each begins.
+        most: steps to try.
+
+    Raises:
+        BoresightError: a task is of another sort, or has more parameters than fit.
+    """
+    kinds: dict[tuple, list[int]] = {}
+    for place, task in enumerate(tasks):
+        if task.shape.others or task.program.loss > 0.0 or (task.program.plane_dropped == POINT).any():
+            raise BoresightError("the card refines plain squares of ranges and offsets only")
+        if not refining_threads(task.shape):
+            raise BoresightError(f"{task.shape.parameters} free parameters are more than the card can refine")
+        kinds.setdefault(task.kind, []).append(place)
+    found: dict[int, Refined] = {}
+    for places in kinds.values():
+        together = _together(tasks[places[0]], np.float64, 0)
+        for first in range(0, len(places), together):
+            chosen = places[first : first + together]
+            batch = batch_of([tasks[place] for place in chosen], np.float64)
+            found.update(zip(chosen, _refine(batch, np.array([starts[p] for p in chosen]), most), strict=True))
+    return [found[place] for place in range(len(tasks))]
+
+
+def _refine(batch: Batch, starts: np.ndarray, most: int) -> list[Refined]:
+    shape, runs = batch.shape, len(batch.keys)
+    x, cost, steps = cuda.to_device(starts), cuda.device_array(runs), cuda.device_array(runs, np.int64)
+    normal = cuda.device_array((runs, shape.parameters + 1, shape.parameters + 1))
+    factor = cuda.device_array((runs, shape.parameters, shape.parameters))
+    refining_kernel(shape)[runs, refining_threads(shape)](
+        _on_card(batch.program), _on_card(batch.rows), x, cost, steps, most, normal, factor
+    )
+    ends = zip(x.copy_to_host(), cost.copy_to_host().tolist(), steps.copy_to_host().tolist(), strict=True)
+    return [Refined(*end) for end in ends]
+
+
+def _on_card(arrays):
+    """Returns a named tuple of arrays with its arrays on the card."""
+    return type(arrays)(*(cuda.to_device(array) for array in arrays))
+
+
 def _together(task: Task, real: type[np.floating], generations: int) -> int:
     """Returns how many tasks like this fit in a launch."""
     shape, size = task.shape, np.dtype(real).itemsize
@@ -80,8 +142,7 @@ def _evolve(
 ) -> list[Run]:
     shape, runs = batch.shape, len(batch.keys)
     kernel = evolving_kernel(shape, np.dtype(real).name)
-    program = type(batch.program)(*(cuda.to_device(array) for array in batch.program))
-    rows = type(batch.rows)(*(cuda.to_device(array) for array in batch.rows))
+    program, rows = _on_card(batch.program), _on_card(batch.rows)
     lower, upper, keys = (cuda.to_device(a) for a in (batch.breeding.lower, batch.breeding.upper, batch.keys))
     breeding = batch.breeding
     strategy = (float(breeding.pull), float(breeding.scale), float(breeding.spread), float(breeding.crossover))
