@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import platform
 import re
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 RESULTS = Path(__file__).with_name("results.md")
-PACKAGES = ("boresight", "numpy", "scipy", "numba", "pygmo", "minionpy")
+PACKAGES = ("boresight", "numpy", "scipy", "numba", "pygmo", "pymoo", "minionpy", "pyarrow")
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,7 @@ class Report:
         figures: numbers with targets.
         tables: the rest.
         notes: what a reader should know.
+        values: what the tables show, as numbers; for JSON alone.
     """
 
     name: str
@@ -61,6 +62,7 @@ class Report:
     figures: tuple[Figure, ...]
     tables: tuple[Table, ...]
     notes: tuple[str, ...] = ()
+    values: dict[str, object] = field(default_factory=dict)
 
     def as_markdown(self) -> str:
         """Returns the section of results.md."""
@@ -75,7 +77,7 @@ class Report:
 
     def as_json(self) -> dict[str, object]:
         """Returns everything as plain values."""
-        return {"machine": machine(), **asdict(self)}
+        return {"date": f"{datetime.now(UTC):%Y-%m-%d}", "machine": machine(), **asdict(self)}
 
     def write(self) -> None:
         """Replaces this benchmark's section of results.md, or appends it, and leaves the others alone."""

@@ -40,7 +40,9 @@ def ours(problem: Problem, generations: int = GENERATIONS) -> list[Entry]:
     return found
 
 
-def measure(case: int, rounds: int, generations: int = GENERATIONS, peers: tuple[str, ...] = tuple(PEERS)) -> list[Line]:
+def measure(
+    case: int, rounds: int, generations: int = GENERATIONS, peers: tuple[str, ...] = tuple(PEERS)
+) -> list[Line]:
     """Returns the lines of a case."""
     problem = plain(CASES[case])
     hold_to_ours(problem)

@@ -1,10 +1,11 @@
 """Floating-point operations of the compiled sweep, counted from a `Program`.
 
 An addition, subtraction, multiplication, division or root is one operation, a fused multiply-add two; comparisons,
-choices and signs are none. What is counted is what the steps of `kernels.carrying`, `kernels.building` and
-`kernels.trigonometry` compute for one member as they are written, multiplications by a share of 0 or 1 included, for
-revolute joints and ranges: `tests/benchmarks` runs the whole sweep on numbers that count and arrives at the same. An
-odd last reading, which the loop carries twice, is counted once: the second is of no use.
+choices, signs and what is computed with constants alone are none. What is counted is what the steps of
+`kernels.carrying`, `kernels.building` and `kernels.trigonometry` compute for one member as they are written,
+multiplications by a share of 0 or 1 included, for revolute joints and ranges: `tests/benchmarks` runs the whole sweep
+on numbers that count and arrives at the same. An odd last reading, which the loop carries twice, is counted once: the
+second is of no use.
 """
 
 from __future__ import annotations
@@ -18,8 +19,8 @@ from boresight.kernels.programs import POINT, RANGE, TURN, Program, Rows
 TURNED, ALONG, MOVED_OFFSET = 6, 5, 6
 """Of one call of the steps of `kernels.carrying`."""
 
-COMPLETED = 12
-"""A normal's third component: three squares, two sums, two roots, a division, a difference, and three products."""
+COMPLETED = 11
+"""A normal's third component: two squares, two sums, two roots, a division, a difference, and three products."""
 
 SMALL_SINCOS = 22
 
@@ -78,5 +79,6 @@ def operations(program: Program, rows: Rows) -> Operations:
 def _plane(program: Program, plane: int) -> int:
     """Returns the operations that write a plane as seen from the first joint's axis."""
     leans = program.plane_dropped[plane] != POINT and np.any(program.plane_parameter[plane, :3] >= 0)
-    corrected, shifted = 4 * 2, 3 * 2
+    corrected = 4 * 2
+    shifted = 3 * (2 if program.segment_start[1] > 0 else 1)  # products of constants, where the base does not move
     return corrected + (COMPLETED if leans else 0) + MOVED_OFFSET + shifted + 3 * ALONG

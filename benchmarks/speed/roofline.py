@@ -35,7 +35,7 @@ class Roof:
         readings: how many.
         counted: operations of a member.
         seconds: (runs,) of a sweep over `MEMBERS`.
-        peak: (runs,) operations a second of the loop of multiply-adds, measured beside them.
+        peak: (runs,) operations a second of the loop of multiply-adds, measured right after each.
     """
 
     readings: int
@@ -55,8 +55,8 @@ class Roof:
 
     @property
     def fraction(self) -> float:
-        """Share of the peak: both medians."""
-        return self.rate / float(np.median(self.peak))
+        """Share of the peak, median of runs, each beside its own peak."""
+        return float(np.median(self.counted.of(MEMBERS, self.readings) / self.seconds / self.peak))
 
     def as_values(self) -> dict[str, float]:
         """Returns it as plain values."""

@@ -60,22 +60,27 @@ class Timed:
         return min(self.seconds)
 
 
-def interleaved(entries: Iterable[Entry], rounds: int, *, title: str = "") -> list[Timed]:
-    """Returns every entry timed in rounds, the first run of each, which may compile, left out.
+def interleaved(entries: Iterable[Entry], rounds: int, *, title: str = "", warm: bool = True) -> list[Timed]:
+    """Returns every entry timed in rounds.
 
     Args:
         entries: what to time.
         rounds: how often each has its turn; seeds differ from turn to turn and are the same for all.
         title: named on stderr while it runs.
+        warm: whether to run everything once or twice first, untimed: the first run may compile.
     """
     timed = [Timed(entry) for entry in entries]
-    repeats = []
-    for each in timed:
+    repeats = [1] * len(timed)
+    for place, each in enumerate(timed if warm else ()):
         say(f"{title}: {each.entry.who}, first run")
-        each.entry.run(0)
-        began = time.perf_counter()
-        each.entry.run(0)
-        repeats.append(int(np.clip(_SLICE_SECONDS / (time.perf_counter() - began + 1e-9), 1, MOST_REPEATS)))
+        seconds = 0.0
+        for _ in range(2):
+            began = time.perf_counter()
+            each.entry.run(0)
+            seconds = time.perf_counter() - began
+            if seconds > 1.0:
+                break
+        repeats[place] = int(np.clip(_SLICE_SECONDS / (seconds + 1e-9), 1, MOST_REPEATS))
     for round_ in range(rounds):
         say(f"{title}: round {round_ + 1} of {rounds}")
         for each, times in zip(timed, repeats, strict=True):

@@ -1,4 +1,7 @@
-"""pymoo's DE, whole populations of arrays: `target-to-best`, which ended lowest here of its three selections."""
+"""pymoo's DE, whole populations of arrays: `best/1`, its default, mutation of its own besides.
+
+It ended at 0.024 to 0.11 mm RMS in case 1 (three seeds), `target-to-best` at 2.0 to 3.0, `rand` at 2.9 to 3.5.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,7 @@ from benchmarks.speed.peers.costs import numpy_cost
 from benchmarks.speed.timing import Entry
 from boresight.calibration.problem import Problem
 
-VARIANT = "DE/target-to-best/1/bin"
+VARIANT = "DE/best/1/bin"
 
 
 def entries(problem: Problem, generations: int) -> list[Entry]:
@@ -45,4 +48,4 @@ def _entry(problem: Problem, generations: int, how: str, cost: Callable[[np.ndar
         assert found.algorithm.evaluator.n_eval == MEMBERS * (generations + 1), found.algorithm.evaluator.n_eval
         return rms_mm(float(found.F[0]), problem)
 
-    return Entry(f"pymoo DE, {how}", run, "target-to-best")
+    return Entry(f"pymoo DE, {how}", run, "best/1, its default")
