@@ -40,8 +40,10 @@ class Table:
 
     def as_markdown(self) -> str:
         """Returns the table under its title."""
-        lines = [self.header, tuple("---" for _ in self.header), *self.rows]
-        return f"**{self.title}**\n\n" + "\n".join(f"| {' | '.join(line)} |" for line in lines)
+        wide = [max(3, *map(len, column)) for column in zip(self.header, *self.rows, strict=True)]
+        lines = [self.header, tuple("-" * width for width in wide), *self.rows]
+        cells = ((cell.ljust(width) for cell, width in zip(line, wide, strict=True)) for line in lines)
+        return f"**{self.title}**\n\n" + "\n".join(f"| {' | '.join(line)} |" for line in cells)
 
 
 @dataclass(frozen=True)
@@ -81,7 +83,11 @@ class Report:
 
     def write(self) -> None:
         """Replaces this benchmark's section of results.md, or appends it, and leaves the others alone."""
-        text = RESULTS.read_text() if RESULTS.exists() else "# Results\n\nWritten by `python -m benchmarks NAME`.\n"
+        text = (
+            RESULTS.read_text()
+            if RESULTS.exists()
+            else "# Results\n\nWritten by `python -m benchmarks [NAME]`; without a name, speed.\n"
+        )
         head, *sections = re.split(r"(?m)^(?=## )", text)
         kept = {section.split("\n", 1)[0]: section.rstrip() + "\n" for section in sections}
         kept[f"## {self.name}"] = self.as_markdown()

@@ -25,7 +25,7 @@ def measure(quick: bool) -> Report:
     for readings in FEW_BATCHES if quick else BATCHES:
         lines += batch.measure(readings, 3 if quick else 7)
     for case in (1, 2):
-        lines += identification.measure(case, 1 if quick else 7)
+        lines += identification.measure(case, 1 if quick else 5)
     for readings in (100,) if quick else (100, 100_000):
         lines += least_squares.measure(readings, 3 if quick or readings > 1_000 else 7)
     lines += monte_carlo.measure(100 if quick else 600, 1 if quick else 3)
@@ -34,8 +34,9 @@ def measure(quick: bool) -> Report:
     minutes = (time.perf_counter() - began) / 60.0
     return Report(
         "speed",
-        f"One core unless said, vectors of {vector_bits()} bits; {EVALUATIONS:,} evaluations an identification. See the "
-        f"docstrings of benchmarks/speed. Measured in {minutes:.0f} minutes; other processes may have shared the machine.",
+        f"One core unless said, vectors of {vector_bits()} bits; {EVALUATIONS:,} evaluations an identification. "
+        "`ends at` is the median run's error and the worst one's. See the docstrings of benchmarks/speed. "
+        f"Measured in {minutes:.0f} minutes; other processes may have shared the machine.",
         figures(lines, roofs, ended),
         (table_of(lines), roofline.table_of(roofs), end_to_end.table_of(ended)),
         tuple(notes + absent()),

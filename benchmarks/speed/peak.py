@@ -16,8 +16,10 @@ import numpy as np
 
 import boresight.kernels.compiling  # noqa: F401 sets the processor's features, and with them the vector width
 
-SUMS, NUMBERS, ROUNDS = 8, 1024, 200
-OPERATIONS = 2 * SUMS * NUMBERS * ROUNDS
+SUMS, NUMBERS = 8, 1024
+
+_EXPECTED = 80e9
+"""Operations a second, about: it says how many rounds fill a time."""
 
 
 @numba.njit(fastmath=True, error_model="numpy")
@@ -41,14 +43,15 @@ def burn(numbers, factors, rounds):
     return total
 
 
-def peak_seconds() -> float:
-    """Returns the time of `OPERATIONS` operations [s]; the first call compiles."""
+def peak_rate(seconds: float) -> float:
+    """Returns the operations a second of a loop that takes about so long; the first call compiles."""
+    rounds = max(1, round(seconds * _EXPECTED / (2 * SUMS * NUMBERS)))
     numbers, factors = np.linspace(0.0, 1.0, NUMBERS), tuple(np.linspace(0.5, 1.5, SUMS).tolist())
     if not burn.signatures:
         burn(numbers, factors, 1)
     began = time.perf_counter()
-    burn(numbers, factors, ROUNDS)
-    return time.perf_counter() - began
+    burn(numbers, factors, rounds)
+    return 2 * SUMS * NUMBERS * rounds / (time.perf_counter() - began)
 
 
 def vector_bits(compiled: Any = burn) -> int:

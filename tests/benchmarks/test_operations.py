@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
 from benchmarks.space_arm import draw, one_plane, three_planes
 from benchmarks.speed.cases import plain
 from benchmarks.speed.operations import operations
+from counting import MATH, Counted
+
 from boresight.kernels import building, carrying, sweeping, trigonometry
 from boresight.kernels.programs import LANES, workspace
 from boresight.sensing.compiled import compile_program, compile_rows
-from counting import MATH, Counted
 
 
 @pytest.fixture

@@ -25,7 +25,8 @@ from boresight.calibration.problem import Problem
 NUMBERS = ("theta", "d", "a", "alpha", "beta")
 
 BLOCK = 1 << 14
-"""Numbers of a whole-array temporary: 128 kB. At 1,000 readings 64 to 128 kB took 89 ns a range, 256 kB 103, 1 MB 130."""
+"""Numbers of a whole-array temporary: 128 kB. With 1,000 readings, 64 to 128 kB took 89 ns a range, 256 kB 103, 1 MB
+130."""
 
 BatchCost = Callable[[np.ndarray], np.ndarray]
 """Of (members, parameters)."""
