@@ -34,7 +34,7 @@ def test_every_peer_that_is_installed_has_its_lines():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of the peers' own
         lines = identification.measure(1, 1, generations=3)
-    assert [line.ratio for line in lines][0] == 1.0
+    assert lines[0].ratio == 1.0
     for package in set(PEERS) - set(missing()):
         named = [line for line in lines if line.who.lower().startswith(package)]
         assert len(named) >= 2
@@ -55,7 +55,6 @@ def test_the_table_holds_numbers_and_targets():
     assert table.header == HEADER
     assert all(len(row) == len(HEADER) for row in table.rows)
     assert [row[0] for row in table.rows[1:]] == [""] * (len(lines) - 1)
-    assert len({line.end for line in lines if "trf" in line.who or "lm" in line.who}) >= 1
     assert 0.0 < roof.rate < 1e12
     assert figures(lines, [roof], []) == ()
     json.dumps([line.as_values() for line in lines] + [roof.as_values()])
