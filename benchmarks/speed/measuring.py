@@ -28,7 +28,7 @@ def measure(quick: bool) -> Report:
         lines += identification.measure(case, 1 if quick else 5)
     for readings in (100,) if quick else (100, 100_000):
         lines += least_squares.measure(readings, 3 if quick or readings > 1_000 else 7)
-    lines += monte_carlo.measure(100 if quick else 600, 1 if quick else 3)
+    lines += monte_carlo.measure(300 if quick else 600, 1 if quick else 3)
     lines += start_up.measure(3 if quick else 9, 1 if quick else 2)
     ended, notes = end_to_end.measure(FEW_SIZES if quick else SIZES, 1 if quick else 3)
     minutes = (time.perf_counter() - began) / 60.0
