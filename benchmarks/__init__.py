@@ -1,4 +1,4 @@
-"""What is claimed of Boresight, measured: `python -m benchmarks NAME [--quick] [--json]`.
+"""What is claimed of Boresight, measured: `python -m benchmarks [NAME] [--quick] [--json] [--gpu]`.
 
-Each benchmark is a module with a function `run(quick)` that returns a `Report`.
+Without a name, speed. Each benchmark is a module or package with a function `run(quick)` that returns a `Report`.
 """

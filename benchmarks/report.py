@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import platform
 import re
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 RESULTS = Path(__file__).with_name("results.md")
-PACKAGES = ("boresight", "numpy", "scipy", "numba", "pygmo", "minionpy")
+PACKAGES = ("boresight", "numpy", "scipy", "numba", "pygmo", "pymoo", "minionpy", "pyarrow")
 
 
 @dataclass(frozen=True)
@@ -40,8 +40,10 @@ class Table:
 
     def as_markdown(self) -> str:
         """Returns the table under its title."""
-        lines = [self.header, tuple("---" for _ in self.header), *self.rows]
-        return f"**{self.title}**\n\n" + "\n".join(f"| {' | '.join(line)} |" for line in lines)
+        wide = [max(3, *map(len, column)) for column in zip(self.header, *self.rows, strict=True)]
+        lines = [self.header, tuple("-" * width for width in wide), *self.rows]
+        cells = ((cell.ljust(width) for cell, width in zip(line, wide, strict=True)) for line in lines)
+        return f"**{self.title}**\n\n" + "\n".join(f"| {' | '.join(line)} |" for line in cells)
 
 
 @dataclass(frozen=True)
@@ -54,6 +56,7 @@ class Report:
         figures: numbers with targets.
         tables: the rest.
         notes: what a reader should know.
+        values: what the tables show, as numbers; for JSON alone.
     """
 
     name: str
@@ -61,6 +64,7 @@ class Report:
     figures: tuple[Figure, ...]
     tables: tuple[Table, ...]
     notes: tuple[str, ...] = ()
+    values: dict[str, object] = field(default_factory=dict)
 
     def as_markdown(self) -> str:
         """Returns the section of results.md."""
@@ -75,11 +79,15 @@ class Report:
 
     def as_json(self) -> dict[str, object]:
         """Returns everything as plain values."""
-        return {"machine": machine(), **asdict(self)}
+        return {"date": f"{datetime.now(UTC):%Y-%m-%d}", "machine": machine(), **asdict(self)}
 
     def write(self) -> None:
         """Replaces this benchmark's section of results.md, or appends it, and leaves the others alone."""
-        text = RESULTS.read_text() if RESULTS.exists() else "# Results\n\nWritten by `python -m benchmarks NAME`.\n"
+        text = (
+            RESULTS.read_text()
+            if RESULTS.exists()
+            else "# Results\n\nWritten by `python -m benchmarks [NAME]`; without a name, speed.\n"
+        )
         head, *sections = re.split(r"(?m)^(?=## )", text)
         kept = {section.split("\n", 1)[0]: section.rstrip() + "\n" for section in sections}
         kept[f"## {self.name}"] = self.as_markdown()
