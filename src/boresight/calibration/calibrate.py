@@ -68,8 +68,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
     problem, x = solution.fit.problem, solution.fit.x
     nominal = problem.cell
     identified = problem.fitted(x)
-    sensitivity = problem.sensitivity(x)
-    found = identify_directions(problem.names, sensitivity, problem.scale)
+    found = identify_directions(problem.names, problem.seen(x), problem.scale)
     moves = movements_of(problem.cell, readings.joints, readings.target, problem.names, problem.corrections(x))
     covariance = problem.covariance(x)
     if campaign.validation is not None:

@@ -20,7 +20,7 @@ from jaxtyping import Bool, Float, Int
 from boresight.calibration.concentration import concentrated
 from boresight.calibration.problem import Problem
 from boresight.inference import model_std
-from boresight.search import LeastSquares, Outcome, least_squares
+from boresight.search import LeastSquares, Outcome, tall_least_squares
 
 CHANCE = 1e-6
 """A row is left out where its residual is so large that chance alone gives one in a million."""
@@ -185,7 +185,7 @@ def _settled(
             still_soft = soft and bool(np.any((problem.row_weight > 0.0) & (problem.row_weight < 1.0)))
             search = refine(problem, search.best, ROUGH if still_soft else THOROUGH)
             evaluations += search.evaluations
-    cost = float(np.sum(problem.residual(search.best) ** 2))
+    cost = problem.square(search.best)
     outcome = search.outcome if move else Outcome.CONVERGED
     seconds = before + time.perf_counter() - began
     return Fit(problem, LeastSquares(search.best, cost, outcome, evaluations, seconds), ratio)
@@ -194,10 +194,10 @@ def _settled(
 def refine(problem: Problem, start: Float[np.ndarray, "parameters"], evaluations: int = THOROUGH) -> LeastSquares:
     """Returns the least-squares optimum reached from a start, inside the problem's bounds, its weights as given."""
     if not len(start):
-        return LeastSquares.at(start, float(np.sum(problem.residual(start) ** 2)))
-    return least_squares(
-        problem.residual,
-        problem.jacobian,
+        return LeastSquares.at(start, problem.square(start))
+    return tall_least_squares(
+        problem.square,
+        problem.triangle,
         start,
         scale=problem.scale,
         lower=-problem.half_width,
