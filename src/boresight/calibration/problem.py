@@ -11,6 +11,7 @@ from jaxtyping import Float
 
 from boresight.calibration.campaign import Freedom
 from boresight.calibration.plain_cost import PlainCost
+from boresight.calibration.thinning import thinned
 from boresight.inference import posterior_covariance
 from boresight.search import Box, Triangle, reduced
 from boresight.sensing import Cell, Readings
@@ -189,6 +190,11 @@ class Problem:
     def on(self, rows: Float[np.ndarray, "some"]) -> Problem:
         """Returns the same problem on some of the rows."""
         return replace(self, readings=self.readings.chosen(rows), row_weights=self.row_weight[rows])
+
+    def thinned(self) -> Problem:
+        """Returns the same problem on a few of its rows where there are many, else itself; see `thinning`."""
+        rows = thinned(self.readings)
+        return self if len(rows) == len(self.readings) else self.on(rows)
 
     def _compiled(self, loss: float) -> CompiledCost | PlainCost:
         weight, prior = self.usual_std**2 / self.std**2, self.usual_std**2 / self.prior_std**2
