@@ -63,6 +63,7 @@ def test_a_rejected_result_stands_beside_an_accepted_one_in_the_present_folder(b
         from boresight.cli.calibrate import run_calibrate
 
         settings = {"solver": "least-squares", "strategy": "trade-off", "population": 150, "generations": 500}
+        settings |= {"device": "cpu", "precision": "double"}
         code = run_calibrate(one_plane.campaign, type(work)(), **settings, seed=0, as_json=True)
     assert code == 2
     assert content(work) == before

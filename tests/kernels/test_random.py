@@ -3,7 +3,7 @@ import itertools
 import numba
 import numpy as np
 
-from boresight.kernels.random import draw, high_uniform, low_uniform, run_key, subkey
+from boresight.kernels.random import below, draw, high_uniform, low_uniform, run_key, subkey
 
 COUNT = 100_000
 CHI_SQUARE_99_DEGREES = (58.0, 157.0)
@@ -113,3 +113,13 @@ def test_every_address_has_its_own_key():
     addresses = list(itertools.product(range(6), range(6), range(6), range(6)))
     keys = {int(key_at(*address)) for address in addresses}
     assert len(keys) == len(addresses)
+
+
+def test_whole_numbers_below_a_count_are_uniform():
+    bits = draws(key_of(3, 0), COUNT)
+    picked = np.array([int(below(each, 100)) for each in bits])
+    assert picked.min() == 0
+    assert picked.max() == 99
+    squares = np.sum((np.bincount(picked, minlength=100) - COUNT / 100) ** 2) / (COUNT / 100)
+    assert CHI_SQUARE_99_DEGREES[0] < squares < CHI_SQUARE_99_DEGREES[1]
+    assert {int(below(each, 1)) for each in bits[:100]} == {0}

@@ -3,7 +3,7 @@ import math
 import numba
 import numpy as np
 
-from boresight.kernels.trigonometry import sincos
+from boresight.kernels.trigonometry import SMALL, sincos, small_sincos
 
 ABSOLUTE = 4e-16
 LOST_PER_RADIAN = 4e-17
@@ -41,3 +41,10 @@ def test_sine_and_cosine_at_and_beside_quarter_turns_equal_the_library():
 
 def test_sine_and_cosine_of_zero_are_exact():
     assert sincos(0.0) == (0.0, 1.0)
+
+
+def test_small_angles_are_exact_to_the_last_bits():
+    angles = np.concatenate([np.linspace(-SMALL, SMALL, 10_001), [1e-300, -1e-17, 0.0]])
+    pairs = np.array([small_sincos(angle) for angle in angles])
+    np.testing.assert_allclose(pairs[:, 0], np.sin(angles), rtol=0, atol=2e-16)
+    np.testing.assert_allclose(pairs[:, 1], np.cos(angles), rtol=0, atol=2.3e-16)

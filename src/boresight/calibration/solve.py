@@ -11,7 +11,11 @@ from jaxtyping import Float
 
 from boresight.calibration.problem import Problem, rms
 from boresight.calibration.robust import Fit, fit, trimmed_cost
-from boresight.search import DifferentialEvolution, Evolved, Stops, evolve
+from boresight.errors import BoresightError
+from boresight.kernels.cuda.batches import Task
+from boresight.search import CPU, Device, DifferentialEvolution, Evolved, Stops, evolve
+from boresight.sensing.compiled import CompiledCost
+from boresight.sensing.on_card import evolve_on_card, task_of
 
 SolverName = Literal["evolution+least-squares", "evolution", "least-squares"]
 SOLVERS: tuple[SolverName, ...] = ("evolution+least-squares", "evolution", "least-squares")
@@ -35,12 +39,14 @@ class Solver:
         evolution: settings of the evolution.
         stops: limits of the evolution.
         seed: of all random numbers.
+        device: where evolution runs; least squares runs on the processor.
     """
 
     name: SolverName = "evolution+least-squares"
     evolution: DifferentialEvolution = DifferentialEvolution()
     stops: Stops = Stops()
     seed: int = 0
+    device: Device = CPU
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,20 +90,25 @@ class Solution:
     nominal_suffices: bool | None
 
 
-def solve(problem: Problem, solver: Solver, on_progress: Progress | None = None) -> Solution:
+def solve(
+    problem: Problem, solver: Solver, on_progress: Progress | None = None, evolved: Evolved | None = None
+) -> Solution:
     """Returns the best fit that the solver finds; of two optima, the lower.
 
     Unless evolution is asked for alone, least squares from the nominal model runs too: it takes milliseconds and
     shows whether evolution was needed.
+
+    Args:
+        problem: what is fitted to what.
+        solver: how.
+        on_progress: called now and then with generations completed and the best cost.
+        evolved: the evolution, where it has run already.
     """
     if solver.name == "least-squares":
         direct = fit(problem, np.zeros(len(problem.names)))
         stage = _stage("least squares from the nominal model", direct, direct)
         return Solution(direct, (stage,), np.empty((0, 2)), stage, True)
-    problem.robust_cost.load(solver.evolution, problem.box)
-    evolved = evolve(
-        problem.robust_cost, problem.box, solver.evolution, solver.stops, seed=solver.seed, on_progress=on_progress
-    )
+    evolved = evolved or _evolve(problem, solver, on_progress)
     if solver.name == "evolution":
         found = fit(problem, evolved.best, move=False)
         return Solution(found, (_evolution(found, evolved),), evolved.history, None, None)
@@ -109,6 +120,27 @@ def solve(problem: Problem, solver: Solver, on_progress: Progress | None = None)
     if best is direct:
         stages.append(nominal)
     return Solution(best, tuple(stages), evolved.history, nominal, _same(best, direct))
+
+
+def evolution_task(problem: Problem, solver: Solver) -> Task:
+    """Returns a problem's evolution as a card is given it.
+
+    Raises:
+        BoresightError: its cost has no compiled form.
+    """
+    cost = problem.robust_cost
+    if not isinstance(cost, CompiledCost):
+        raise BoresightError("device cuda cannot evolve readings of distances: use device cpu, or least squares")
+    return task_of(cost, problem.box, solver.evolution, solver.seed)
+
+
+def _evolve(problem: Problem, solver: Solver, on_progress: Progress | None) -> Evolved:
+    if solver.device.on_card:
+        return evolve_on_card([evolution_task(problem, solver)], solver.device, solver.stops, on_progress)[0]
+    problem.robust_cost.load(solver.evolution, problem.box)
+    return evolve(
+        problem.robust_cost, problem.box, solver.evolution, solver.stops, seed=solver.seed, on_progress=on_progress
+    )
 
 
 def continued_by(solution: Solution, further: Fit) -> Solution:

@@ -20,6 +20,8 @@ from boresight.errors import BoresightError
 SolverChoice = Literal["evolution+least-squares", "evolution", "least-squares"]
 StrategyChoice = Literal["trade-off", "rand-to-best/1", "current-to-best/1", "best/1", "rand/1", "downhill"]
 
+DeviceChoice = Literal["cpu", "cuda"]
+PrecisionChoice = Literal["double", "single"]
 FormatChoice = Literal["urdf", "dh", "ur-kinematics", "ur-calibration-conf", "pal", "json"]
 ConventionChoice = Literal["standard-dh", "modified-dh"]
 
@@ -41,6 +43,8 @@ def calibrate(
     strategy: StrategyChoice = "trade-off",
     population: int | None = None,
     generations: int = 500,
+    device: DeviceChoice = "cpu",
+    precision: PrecisionChoice = "double",
     seed: int = 0,
     json: Annotated[bool, Parameter(negative="")] = False,
 ) -> int:
@@ -53,6 +57,9 @@ def calibrate(
         strategy: how evolution makes mutants.
         population: members of the evolution (Np); the strategy's own by default, 150 as in the paper, 120 for downhill.
         generations: generations of the evolution (G).
+        device: where evolution runs: this processor, or an NVIDIA card. One calibration keeps a small part of a card
+            busy; cards are for studies.
+        precision: of the card's numbers; least squares, which follows, is in double precision in any case.
         seed: of all random numbers; the same seed gives the same answer.
         json: print result.json instead of a summary.
     """
@@ -65,6 +72,8 @@ def calibrate(
         strategy=strategy,
         population=population,
         generations=generations,
+        device=device,
+        precision=precision,
         seed=seed,
         as_json=json,
     )
@@ -231,6 +240,8 @@ def study(
     workers: int | None = None,
     scheduler: str | None = None,
     shard: str | None = None,
+    device: DeviceChoice = "cpu",
+    precision: PrecisionChoice = "double",
     seeds: int | None = None,
     merge: list[Path] | None = None,
     summary: Annotated[bool, Parameter(negative="")] = False,
@@ -247,6 +258,9 @@ def study(
         workers: processes of this machine; one a core by default.
         scheduler: address of a Dask scheduler whose workers do the work instead, such as tcp://host:8786.
         shard: make one part of the runs, such as 2/4, to divide them among machines by hand.
+        device: where evolution runs: the workers, or this machine's NVIDIA card for all of them. Runs are kept apart,
+            for they differ in their last digits.
+        precision: of the card's numbers.
         seeds: campaigns of each point; as the file says by default.
         merge: folder of another part, whose runs are added to this one's first; may be given several times.
         summary: run nothing; show what there is, of a study that is still running too.
@@ -260,6 +274,8 @@ def study(
         workers=workers,
         scheduler=scheduler,
         shard=shard,
+        device=device,
+        precision=precision,
         seeds=seeds,
         merge=merge or [],
         summary=summary,

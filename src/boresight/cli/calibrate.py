@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from rich.console import Console
@@ -12,6 +13,7 @@ from boresight.calibration import Solver, calibrate
 from boresight.cli.codes import LARGEST_SEED, REJECTED
 from boresight.cli.compiling import told_of_compiling
 from boresight.cli.consoles import PipedConsole, print_plain
+from boresight.cli.devices import chosen_device
 from boresight.errors import InputError
 from boresight.files import load_campaign
 from boresight.kernels.evolving import evolve_generations
@@ -20,6 +22,7 @@ from boresight.report.document import result_json
 from boresight.report.folder import check_writable, write_result
 from boresight.report.summary import print_summary
 from boresight.search import STRATEGIES, DifferentialEvolution, Stops
+from boresight.search.devices import DeviceName, Precision
 from boresight.sensing.linear import is_compiled
 
 MOST_MEMBERS, MOST_GENERATIONS = 1_000_000, 1_000_000_000
@@ -34,18 +37,21 @@ def run_calibrate(
     strategy: str,
     population: int | None,
     generations: int,
+    device: DeviceName,
+    precision: Precision,
     seed: int,
     as_json: bool,
 ) -> int:
     """Returns the exit code of a calibration, its result written and shown."""
     settings = _solver(solver, strategy, population, generations, seed)
+    settings = replace(settings, device=chosen_device(device, precision, evolves=solver != "least-squares"))
     campaign = load_campaign(path, need_readings=True)
     folder = output or Path(f"{campaign.name}-result")
     check_writable(folder)
     errors = Console(stderr=True)
-    evolves = solver != "least-squares" or bool(campaign.unknown)
+    evolves_here = (solver != "least-squares" and not settings.device.on_card) or bool(campaign.unknown)
     linearises = is_compiled(campaign.cell)
-    told_of_compiling(*([linearise_rows] if linearises else []), *([evolve_generations] if evolves else []))
+    told_of_compiling(*([linearise_rows] if linearises else []), *([evolve_generations] if evolves_here else []))
     with Progress(
         TextColumn("evolution"),
         BarColumn(),

@@ -15,12 +15,14 @@ from boresight import __version__
 from boresight.cli.codes import INTERRUPTED
 from boresight.cli.compiling import told_of_compiling
 from boresight.cli.consoles import PipedConsole, print_plain
+from boresight.cli.devices import chosen_device
 from boresight.errors import InputError, OutputError
 from boresight.files import load_study
 from boresight.files.study_schemas import MOST_SEEDS
 from boresight.kernels.evolving import evolve_generations
 from boresight.kernels.linearising import linearise_rows
 from boresight.report.study import print_study, study_json, write_study
+from boresight.search.devices import DeviceName, Precision
 from boresight.studies import Store, Study, run, study, summarise
 from boresight.studies.study import Shard
 
@@ -40,6 +42,8 @@ def run_study(
     workers: int | None,
     scheduler: str | None,
     shard: str | None,
+    device: DeviceName,
+    precision: Precision,
     seeds: int | None,
     merge: list[Path],
     summary: bool,
@@ -48,6 +52,7 @@ def run_study(
     """Returns the exit code of a study, what was missing made and the summary written and shown."""
     part = _checked(workers, scheduler, shard, seeds, merge, summary)
     asked = load_study(path, seeds=seeds)
+    asked = asked.on(chosen_device(device, precision, evolves=any(point.evolves for point in asked.points)))
     folder = output or Path(f"{asked.name}-study")
     file = folder / RESULTS
     if not summary:
@@ -75,9 +80,10 @@ def run_study(
 
 def _run(asked: Study, file: Path, workers, scheduler, part: Shard, errors: Console, *, quiet: bool):
     """Returns whether the study was interrupted, and its summary if not."""
+    on_card = any(point.settings.device.on_card for point in asked.points)
     evolving = next((point for point in asked.points if point.evolves), None)
     needed = (linearise_rows, *([evolve_generations] if evolving else []))
-    if scheduler is None and told_of_compiling(*needed):
+    if scheduler is None and not on_card and told_of_compiling(*needed):
         run(evolving or asked.points[0], 0)  # here, so that the workers find it on disk and need not each do it
     with _progress(asked.name, errors, hidden=quiet) as show, _one_interrupt():
         try:

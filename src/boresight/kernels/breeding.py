@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from boresight.kernels.compiling import compiled
-from boresight.kernels.random import draw, high_uniform, low_uniform, subkey
+from boresight.kernels.random import below, draw, high_uniform, low_uniform, subkey
 
 
 class Breeding(NamedTuple):
@@ -60,13 +60,13 @@ def partners(key, me, total, parameters):
     index = parameters + 1
     a, b, c = me, me, me
     while a == me:
-        a = draw(key, index) % total
+        a = below(draw(key, index), total)
         index += 1
     while b in (me, a):
-        b = draw(key, index) % total
+        b = below(draw(key, index), total)
         index += 1
     while c in (me, a, b):
-        c = draw(key, index) % total
+        c = below(draw(key, index), total)
         index += 1
     return a, b, c
 
@@ -87,12 +87,59 @@ def lead(costs, leaders):
 
 
 @compiled
-def breed(run, generation, breeding, members, costs, leaders, trials, lanes):
-    """Writes the trial members of a generation (paper, eq. 14 to 17), and transposed for the sweep.
+def parents(key, me, count, parameters, elite, scale, spread):
+    """Returns who a mutant is made of.
+
+    Args:
+        key: of the member in this generation.
+        me: the member.
+        count: of members.
+        parameters: how many numbers a member has.
+        elite: how many members stand for the best.
+        scale: F.
+        spread: how far it varies.
+
+    Returns:
+        Three other members; the place of its leader among the best; its own F; the component that it takes for
+        certain.
+    """
+    forced = below(draw(key, parameters), parameters)
+    a, b, c = partners(key, me, np.uint64(count), parameters)
+    bits = draw(key, _OWN)
+    leader = np.int64(low_uniform(bits) * elite)
+    return a, b, c, leader, scale + spread * (2.0 * high_uniform(bits) - 1.0), np.int64(forced)
+
+
+@compiled
+def component(own, start, best, plus, minus, pull, scale, lower, upper, redrawn, taken):
+    """Returns one number of a trial member (paper, eq. 14 to 17).
 
     A component that leaves the box is drawn again between the member's own value and the bound it crossed.
     Drawing it from the whole box throws away what the population knows, and stopping it at the bound breeds
     members that share it.
+
+    Args:
+        own: the member's.
+        start: that of its origin.
+        best: that of its leader.
+        plus: that of the member which is added.
+        minus: that of the member which is taken off.
+        pull: K.
+        scale: F.
+        lower: the box's lower bound.
+        upper: its upper bound.
+        redrawn: where in it to draw again, 0 to 1.
+        taken: whether crossover takes the mutant's.
+    """
+    mutant = start + pull * (best - start) + scale * (plus - minus)
+    mutant = lower + redrawn * (own - lower) if mutant < lower else mutant
+    mutant = upper - redrawn * (upper - own) if mutant > upper else mutant
+    return mutant if taken else own
+
+
+@compiled
+def breed(run, generation, breeding, members, costs, leaders, trials, lanes):
+    """Writes the trial members of a generation, and transposed for the sweep.
 
     Args:
         run: key of the run.
@@ -110,22 +157,18 @@ def breed(run, generation, breeding, members, costs, leaders, trials, lanes):
     lower, upper = breeding.lower, breeding.upper
     for i in range(count):
         key, me = subkey(generation_key, i), np.uint64(i)
-        forced = np.int64(draw(key, parameters) % np.uint64(parameters))
-        a, plus, minus = partners(key, me, np.uint64(count), parameters)
-        own_bits = draw(key, _OWN)
-        best = leaders[np.int64(low_uniform(own_bits) * leaders.shape[0])]
-        scale = breeding.scale + breeding.spread * (2.0 * high_uniform(own_bits) - 1.0)
+        a, plus, minus, leader, scale, forced = parents(
+            key, me, count, parameters, leaders.shape[0], breeding.scale, breeding.spread
+        )
+        origin, best = me if breeding.from_current else a, leaders[leader]
         if breeding.downhill and costs[minus] < costs[plus]:
             plus, minus = minus, plus
-        origin = me if breeding.from_current else a
         for j in range(parameters):
             bits = draw(key, j)
-            own, start = members[i, j], members[origin, j]
-            mutant = start + pull * (members[best, j] - start) + scale * (members[plus, j] - members[minus, j])
-            redrawn = high_uniform(bits)
-            mutant = lower[j] + redrawn * (own - lower[j]) if mutant < lower[j] else mutant
-            mutant = upper[j] - redrawn * (upper[j] - own) if mutant > upper[j] else mutant
-            trials[i, j] = mutant if low_uniform(bits) < crossover or j == forced else own
+            trials[i, j] = component(
+                members[i, j], members[origin, j], members[best, j], members[plus, j], members[minus, j],
+                pull, scale, lower[j], upper[j], high_uniform(bits), low_uniform(bits) < crossover or j == forced,
+            )  # fmt: skip
         for j in range(parameters):
             lanes[j, i] = trials[i, j]
     for j in range(parameters):

@@ -12,8 +12,15 @@ These functions are the one source of the hot loop, whatever it is compiled for.
 
 from __future__ import annotations
 
+import math
+
+import numpy as np
+
 from boresight.kernels.compiling import compiled
 from boresight.kernels.programs import MISSED
+
+_ZERO, _ONE, _TWO, _MISSED = np.float32(0.0), np.float32(1.0), np.float32(2.0), np.float32(MISSED)
+"""In single precision, where they are exact: beside a double they change nothing, beside a single they keep it one."""
 
 
 @compiled
@@ -37,8 +44,36 @@ def moved_offset(nx, ny, nz, f, tx, ty, tz):
 
 
 @compiled
+def completed(x, y, z, sign, is_x, is_y, is_z):
+    """Returns a unit normal of which one component is dropped, and follows from |n| = 1 (paper, eq. 19).
+
+    Where the other two alone are longer than 1, it is 0 and they are scaled back.
+
+    Args:
+        x: first component.
+        y: second.
+        z: third.
+        sign: of the dropped one, 1 or -1; itself, it is not read.
+        is_x: whether it is the first.
+        is_y: whether it is the second.
+        is_z: whether it is the third.
+    """
+    x, y, z = _ZERO if is_x else x, _ZERO if is_y else y, _ZERO if is_z else z
+    squares = x * x + y * y + z * z
+    scale = _ONE / math.sqrt(max(squares, _ONE))
+    last = sign * math.sqrt(max(_ONE - squares, _ZERO))
+    return last if is_x else scale * x, last if is_y else scale * y, last if is_z else scale * z
+
+
+@compiled
 def range_residual(nz, f, bias, gain, reading):
     """Returns predicted minus measured range [m], `MISSED` where the beam looks away from its plane."""
-    hits = f * nz < 0.0
-    safe = nz if hits else 1.0
-    return bias - gain * f / safe - reading if hits else MISSED
+    hits = f * nz < _ZERO
+    safe = nz if hits else _ONE
+    return bias - gain * f / safe - reading if hits else _MISSED
+
+
+@compiled
+def robust(square, loss):
+    """Returns a squared residual counted by size beyond `loss` (pseudo-Huber), or as it is where `loss` is 0."""
+    return _TWO * loss * (math.sqrt(_ONE + square / loss) - _ONE) if loss > _ZERO else square

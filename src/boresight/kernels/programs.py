@@ -54,6 +54,7 @@ class Program(NamedTuple):
         motion_kind: (motions,) `TURN` or `SHIFT`.
         motion_axis: (motions,) 0, 1, 2 for x, y, z.
         motion_value: (motions,) nominal angle [rad] or length [m].
+        motion_sine, motion_cosine: (motions,) of it.
         motion_parameter: (motions,) row of the member's correction, or `FIXED`.
         prismatic: (joints,) whether the joint shifts along z rather than turning about it.
         plane: (planes, 4) nominal unit normal and offset [m] in the world, or a point's x, y, z [m] and 0.
@@ -71,6 +72,8 @@ class Program(NamedTuple):
     motion_kind: np.ndarray
     motion_axis: np.ndarray
     motion_value: np.ndarray
+    motion_sine: np.ndarray
+    motion_cosine: np.ndarray
     motion_parameter: np.ndarray
     prismatic: np.ndarray
     plane: np.ndarray
@@ -112,10 +115,10 @@ class Workspace(NamedTuple):
     Attributes:
         links: (segments * 12 * LANES,) link constants of a tile: R column by column, then t [m].
         planes: (planes * 4 * LANES,) planes of a tile, as seen from the first joint's axis.
-        state: (4 * LANES,) the carried plane (n_x, n_y, n_z, f) of a tile.
+        state: (8 * LANES,) the carried planes (n_x, n_y, n_z, f) of two readings of a tile.
         costs: (LANES,) cost of a tile.
         sensor: (sensors * 2 * LANES,) bias [m] and gain of a tile's sensors.
-        scratch: (3 * LANES,) amounts of a motion, their sines and cosines.
+        scratch: (2 * LANES,) sines and cosines of a motion.
     """
 
     links: np.ndarray
@@ -140,10 +143,10 @@ def workspace(program: Program) -> Workspace:
     return Workspace(
         links=aligned(segments * 12 * LANES),
         planes=aligned(max(len(program.plane), 1) * 4 * LANES),
-        state=aligned(4 * LANES),
+        state=aligned(8 * LANES),
         costs=aligned(LANES),
         sensor=aligned(len(program.sensor_value) * 2 * LANES),
-        scratch=aligned(3 * LANES),
+        scratch=aligned(2 * LANES),
     )
 
 

@@ -177,6 +177,7 @@ def _search(result: Result) -> dict[str, Any]:
         "CR": evolution.crossover,
         "K": evolution.scale if evolution.strategy.pull is None else evolution.strategy.pull,
         "generations": {"limit": solver.stops.generations, "run": max(len(solution.history) - 1, 0)},
+        "device": str(solver.device),
         "stages": [_stage(stage) for stage in solution.stages],
         "least_squares_from_nominal": None if solution.nominal is None else _stage(solution.nominal),
         "least_squares_from_nominal_suffices": solution.nominal_suffices,

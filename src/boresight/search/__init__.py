@@ -1,6 +1,8 @@
 """Searching boxes for low costs: differential evolution and least squares. Knows no robots."""
 
 from boresight.search.box import Box as Box
+from boresight.search.devices import CPU as CPU
+from boresight.search.devices import Device as Device
 from boresight.search.evolution import DifferentialEvolution as DifferentialEvolution
 from boresight.search.evolution import Population as Population
 from boresight.search.evolution import ask as ask

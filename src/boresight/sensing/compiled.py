@@ -44,12 +44,15 @@ def compile_program(
     segments += [last for (*_, last), _ in others]
     kept = [[m for m in segment if m.value != 0.0 or m.parameter in place] for segment in segments]
     motions = [motion for segment in kept for motion in segment]
+    value = np.array([motion.value for motion in motions], dtype=float)
     planes, sensors = carried_planes(cell), _sensors(cell)
     return Program(
         segment_start=np.cumsum([0] + [len(segment) for segment in kept]),
         motion_kind=np.array([TURN if m.turns else SHIFT for m in motions], dtype=np.int64),
         motion_axis=np.array([m.axis for m in motions], dtype=np.int64),
-        motion_value=np.array([m.value for m in motions], dtype=float),
+        motion_value=value,
+        motion_sine=np.sin(value),
+        motion_cosine=np.cos(value),
         motion_parameter=np.array([place.get(m.parameter or "", FIXED) for m in motions], dtype=np.int64),
         prismatic=np.array(prismatic, dtype=np.bool_),
         plane=np.array([_plane_values(plane) for _, plane in planes]),
@@ -172,16 +175,16 @@ class CompiledCost:
     """
 
     def __init__(self, program: Program, rows: Rows) -> None:
-        self._program = program
-        self._rows = rows
+        self.program = program
+        self.rows = rows
         self._work = workspace(program)
 
     def __call__(self, members: Float[np.ndarray, "members parameters"]) -> Float[np.ndarray, "members"]:
         """Returns the cost of every member."""
-        lanes = np.zeros((members.shape[1], padded(len(members))))
-        lanes[:, : len(members)] = members.T
+        lanes = np.zeros((max(members.shape[1], 1), padded(len(members))))
+        lanes[: members.shape[1], : len(members)] = members.T
         costs = np.empty(lanes.shape[1])
-        sweep(self._program, self._rows, self._work, lanes, costs)
+        sweep(self.program, self.rows, self._work, lanes, costs)
         return costs[: len(members)]
 
     def load(self, settings: DifferentialEvolution, box: Box) -> None:
@@ -206,8 +209,8 @@ class CompiledCost:
         lanes = aligned(parameters, padded(count))
         history = np.empty((generations, 2))
         done, stale, reference = evolve_generations(
-            self._program,
-            self._rows,
+            self.program,
+            self.rows,
             self._work,
             settings.breeding(box),
             np.uint64(population.key),

@@ -13,7 +13,7 @@ import numpy as np
 from boresight.calibration.campaign import Freedom
 from boresight.sensing import Cell
 
-RUN_FORMAT = 1
+RUN_FORMAT = 2
 """Grows when a run of the same point and seed gives other numbers than before, so that old ones are not mixed in."""
 
 

@@ -14,7 +14,7 @@ from jaxtyping import Float, Int
 from boresight.calibration.campaign import Freedom
 from boresight.calibration.solve import Solver, SolverName
 from boresight.errors import InputError
-from boresight.search import STRATEGIES, DifferentialEvolution, Stops
+from boresight.search import CPU, STRATEGIES, Device, DifferentialEvolution, Stops
 from boresight.sensing import Cell
 from boresight.studies.content import key_of
 
@@ -87,6 +87,7 @@ class Settings:
         solver: which stages to run.
         strategy, population, generations, patience: of the evolution.
         validation_rows: configurations drawn to judge by.
+        device: where evolution runs: it changes the last digits of what is found.
     """
 
     planes: Chosen
@@ -102,6 +103,7 @@ class Settings:
     generations: int = 500
     patience: int = 100
     validation_rows: int = 20
+    device: Device = CPU
 
 
 @dataclass(frozen=True)
@@ -143,7 +145,8 @@ class Point:
         """How to search; the seed is the run's."""
         settings = self.settings
         evolution = DifferentialEvolution(STRATEGIES[settings.strategy], settings.population)
-        return Solver(settings.solver, evolution, Stops(settings.generations, patience=settings.patience))
+        stops = Stops(settings.generations, patience=settings.patience)
+        return Solver(settings.solver, evolution, stops, device=settings.device)
 
     @property
     def evolves(self) -> bool:
@@ -182,6 +185,8 @@ class Point:
         numbers = {name: getattr(settings, name) for name in ("rows", "gross_errors", "solver", "validation_rows")}
         if self.evolves:
             numbers |= {n: getattr(settings, n) for n in ("strategy", "population", "generations", "patience")}
+        if self.evolves and settings.device.on_card:
+            numbers["device"] = str(settings.device)
         return numbers
 
 
@@ -200,6 +205,11 @@ class Study:
     points: tuple[Point, ...]
     varied: tuple[str, ...]
     seeds: int
+
+    def on(self, device: Device) -> Study:
+        """Returns the same study with its evolutions on a device."""
+        moved = (replace(point, settings=replace(point.settings, device=device)) for point in self.points)
+        return replace(self, points=tuple(moved))
 
     def __len__(self) -> int:
         """Number of runs."""

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float
 
 from boresight.calibration.problem import Problem, rms
 from boresight.calibration.robust import Fit
-from boresight.calibration.solve import Solution, solve
+from boresight.calibration.solve import Solution, evolution_task, solve
 from boresight.errors import BoresightError
 from boresight.geometry import rotation_angle
 from boresight.inference import pose_uncertainty
+from boresight.kernels.cuda.batches import Task
+from boresight.search import Evolved
 from boresight.sensing import Cell
 from boresight.studies.grid import Point
 from boresight.studies.outcome import Outcome
@@ -22,19 +25,49 @@ _NEAR = 1e-6
 _STEPS = 20
 
 
-def run(point: Point, seed: int) -> Outcome:
+class Drawn(NamedTuple):
+    """One simulated campaign.
+
+    Attributes:
+        problem: what is to be calibrated.
+        truth: the cell that was measured.
+        planted: (rows,) which are grossly wrong.
+    """
+
+    problem: Problem
+    truth: Cell
+    planted: Bool[np.ndarray, " rows"]
+
+
+def run(point: Point, seed: int, evolved: Evolved | None = None) -> Outcome:
     """Returns the outcome of a point and a seed, a function of these alone (its `seconds` aside).
 
     Points share what they can of a seed: a parameter's true error, the first configurations of each target, and
     the noise in standard deviations are the same, so that differences between points are not differences of luck.
+
+    Args:
+        point: the kind of campaign.
+        seed: which of them.
+        evolved: its evolution, where that has run already.
     """
     try:
-        return _run(point, seed)
+        return _run(point, seed, evolved)
     except (BoresightError, np.linalg.LinAlgError) as error:
         return Outcome.failed(f"{type(error).__name__}: {error}", len(point.freedoms))
 
 
-def _run(point: Point, seed: int) -> Outcome:
+def evolution_of(point: Point, seed: int) -> Task | None:
+    """Returns the evolution of a point and a seed as a card is given it, None where there is none to run."""
+    if not point.evolves:
+        return None
+    try:
+        return evolution_task(draw(point, seed).problem, replace(point.solver, seed=seed))
+    except (BoresightError, np.linalg.LinAlgError):
+        return None  # which `run` will say
+
+
+def draw(point: Point, seed: int) -> Drawn:
+    """Returns the campaign of a point and a seed."""
     cell, freedoms, settings = point.cell, point.freedoms, point.settings
     truth = cell.corrected(named_errors({f.parameter: f.within or 0.0 for f in freedoms}, seed))
     if settings.rows is None:
@@ -45,12 +78,15 @@ def _run(point: Point, seed: int) -> Outcome:
         joints, target = draw_configurations((cell, truth), settings.rows, seed)
     good = simulated_readings(truth, joints, target, seed)
     readings, planted = spoiled(good, settings.gross_errors, seed)
-    problem = Problem(cell, readings, freedoms)
-    solution = solve(problem, replace(point.solver, seed=seed))
-    x_true = np.array([truth.values[name] - cell.values[name] for name in problem.names])
-    return _judged(
-        solution, truth, problem.weighed((~planted).astype(float), 0.0), x_true, settings.validation_rows, seed
-    )
+    return Drawn(Problem(cell, readings, freedoms), truth, planted)
+
+
+def _run(point: Point, seed: int, evolved: Evolved | None) -> Outcome:
+    problem, truth, planted = draw(point, seed)
+    solution = solve(problem, replace(point.solver, seed=seed), evolved=evolved)
+    x_true = np.array([truth.values[name] - point.cell.values[name] for name in problem.names])
+    oracle = problem.weighed((~planted).astype(float), 0.0)
+    return _judged(solution, truth, oracle, x_true, point.settings.validation_rows, seed)
 
 
 def _judged(

@@ -138,8 +138,10 @@ class Store:
 
 def _prepare(connection: sqlite3.Connection, path: Path) -> None:
     """Makes the tables of a new file, and refuses a file that is not ours."""
+    connection.execute("BEGIN")  # one view of the file, which another process may be making just now
     application, version = (connection.execute(f"PRAGMA {n}").fetchone()[0] for n in ("application_id", "user_version"))
     tables = connection.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
+    connection.execute("COMMIT")
     if application == APPLICATION:
         if version != VERSION:
             raise InputError(

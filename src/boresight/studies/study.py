@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor
 from dataclasses import dataclass
@@ -11,7 +12,8 @@ from pathlib import Path
 from boresight.errors import BoresightError
 from boresight.parallel import AHEAD, completed, local_workers, worker_count
 from boresight.studies.cluster import cluster_workers
-from boresight.studies.grid import Point, Study
+from boresight.studies.grid import Study
+from boresight.studies.on_card import EvolvedRun, Run, evolved_runs
 from boresight.studies.outcome import Outcome
 from boresight.studies.run import run
 from boresight.studies.store import Store
@@ -27,7 +29,6 @@ RETRIES = 3
 RESTARTS = 3
 """How often local workers are started anew after one was killed, by the system for want of memory, say."""
 
-Run = tuple[Point, int]
 Progress = Callable[[int, int], None]
 """Called with runs done and runs asked for."""
 
@@ -101,33 +102,38 @@ def missing(store: Store, runs: Sequence[Run]) -> list[Run]:
     return [(point, seed) for point, seed in runs if seed not in done[point.key]]
 
 
-def run_task(task: Sequence[Run]) -> list[Outcome]:
+def run_task(task: Sequence[EvolvedRun]) -> list[Outcome]:
     """Returns the outcomes of some runs, in their order: what a worker does."""
-    return [run(point, seed) for point, seed in task]
+    return [run(point, seed, evolved) for point, seed, evolved in task]
 
 
 def _make(store: Store, mine: Sequence[Run], pool: Executor, threads: int, on_progress: Progress) -> None:
     left = missing(store, mine)
     done = len(mine) - len(left)
     on_progress(done, len(mine))
-    tasks = _Tasks(left)
-    for place, outcomes in completed(pool, run_task, tasks, ahead=threads * (1 + AHEAD), retries=RETRIES):
-        runs = tasks.handed_out.pop(place)
-        store.add_many((*each, outcome) for each, outcome in zip(runs, outcomes, strict=True))
-        tasks.took([outcome.seconds for outcome in outcomes])
-        done += len(runs)
-        on_progress(done, len(mine))
+    on_card = [each for each in left if each[0].evolves and each[0].settings.device.on_card]
+    here: list[EvolvedRun] = [
+        (point, seed, None) for point, seed in left if not (point.evolves and point.settings.device.on_card)
+    ]
+    for some in itertools.chain([here], evolved_runs(on_card, pool)):
+        tasks = _Tasks(some)
+        for place, outcomes in completed(pool, run_task, tasks, ahead=threads * (1 + AHEAD), retries=RETRIES):
+            runs = tasks.handed_out.pop(place)
+            store.add_many((point, seed, outcome) for (point, seed, _), outcome in zip(runs, outcomes, strict=True))
+            tasks.took([outcome.seconds for outcome in outcomes])
+            done += len(runs)
+            on_progress(done, len(mine))
 
 
 class _Tasks:
     """Runs in tasks, the first of one run, later as many as take `TASK_S`."""
 
-    def __init__(self, runs: Sequence[Run]) -> None:
+    def __init__(self, runs: Sequence[EvolvedRun]) -> None:
         self._runs = runs
         self._size = 1
-        self.handed_out: dict[int, Sequence[Run]] = {}
+        self.handed_out: dict[int, Sequence[EvolvedRun]] = {}
 
-    def __iter__(self) -> Iterator[Sequence[Run]]:
+    def __iter__(self) -> Iterator[Sequence[EvolvedRun]]:
         first = number = 0
         while first < len(self._runs):
             task = self._runs[first : first + self._size]

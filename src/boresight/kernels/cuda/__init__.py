@@ -1,0 +1,8 @@
+"""The same loops on a graphics card: one block of threads is one whole calibration, each thread one member.
+
+What a thread does is written in the scalar steps of `boresight.kernels` (`carrying`, `trigonometry`, `random`,
+`breeding`), compiled for the card by numba-cuda; only the order in which they are taken is written here. Read
+`batches` (many calibrations of one shape as arrays), `costing` (what one member costs), `evolving` (the block).
+
+Nothing here is imported before a card is asked for.
+"""
