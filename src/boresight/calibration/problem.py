@@ -12,7 +12,7 @@ from jaxtyping import Float
 from boresight.calibration.campaign import Freedom
 from boresight.calibration.plain_cost import PlainCost
 from boresight.calibration.thinning import thinned
-from boresight.inference import posterior_covariance
+from boresight.inference import posterior_covariance, posterior_root
 from boresight.search import Box, Triangle, reduced
 from boresight.sensing import Cell, Readings
 from boresight.sensing.compiled import CompiledCost, compile_program, compile_rows
@@ -167,10 +167,9 @@ class Problem:
 
     def leverage(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels"]:
         """Returns the variance of each predicted value after the fit over the variance of its error."""
-        found, covariance = np.empty(self.std.shape), self.covariance(x)
+        found, root = np.empty(self.std.shape), posterior_root(self.seen(x), self.prior_std).T
         for block in self.model.blocks(x, 1.0 / self.std, MISSED_M):
-            slopes = block.columns[:-1]
-            found[block.rows] = np.sum(slopes * (covariance @ slopes), axis=0).reshape(-1, self.cell.channels)
+            found[block.rows] = np.sum((root @ block.columns[:-1]) ** 2, axis=0).reshape(-1, self.cell.channels)
         return found
 
     def covariance(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "parameters parameters"]:
