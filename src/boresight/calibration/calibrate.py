@@ -12,14 +12,15 @@ from boresight.calibration.campaign import Campaign
 from boresight.calibration.estimates import estimates_of
 from boresight.calibration.frames import find_frames
 from boresight.calibration.freedom import freedoms_of
-from boresight.calibration.holdout import by_cross_validation, error_sizes, on_validation_rows, summarise
+from boresight.calibration.holdout import by_cross_validation, on_validation_rows, row_sizes, summarise
 from boresight.calibration.jumps import find_jumps
 from boresight.calibration.left_out import left_out, left_out_in_words
 from boresight.calibration.outliers import find_outliers
 from boresight.calibration.problem import Problem
-from boresight.calibration.result import Residuals, Result, Unseen
+from boresight.calibration.result import Result, Unseen
 from boresight.calibration.robust import Fit, check_noise
 from boresight.calibration.solve import Progress, Solution, Solver, continued_by, solve
+from boresight.calibration.thinning import thinned
 from boresight.calibration.verdict import LOUD, judge
 from boresight.errors import InputError
 from boresight.inference import (
@@ -30,7 +31,7 @@ from boresight.inference import (
     uncalibrated_in_words,
     unseen_in_words,
 )
-from boresight.sensing import Cell, Readings
+from boresight.sensing import Cell
 
 WORKSPACE_CONFIGURATIONS = 500
 """Configurations at which the tool's uncertainty over the work space is told."""
@@ -68,8 +69,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
     problem, x = solution.fit.problem, solution.fit.x
     nominal = problem.cell
     identified = problem.fitted(x)
-    sensitivity = problem.sensitivity(x)
-    found = identify_directions(problem.names, sensitivity, problem.scale)
+    found = identify_directions(problem.names, problem.seen(x), problem.scale)
     moves = movements_of(problem.cell, readings.joints, readings.target, problem.names, problem.corrections(x))
     covariance = problem.covariance(x)
     if campaign.validation is not None:
@@ -79,6 +79,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
     spread = spread_configurations(identified, WORKSPACE_CONFIGURATIONS)
     in_workspace = pose_uncertainty(identified, problem.names, covariance, spread)
     errors = {"before": problem.errors(np.zeros(len(x))), "after": problem.errors(x)}
+    asked = readings if campaign.validation is None else campaign.validation
     jumps = find_jumps(solution.fit)
     unseen = tuple(Unseen(each.parameters, each.words) for each in unseen_in_words(found, problem.scale, moves))
     return Result(
@@ -98,7 +99,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         free=len(problem.names),
         rank=found.rank,
         unseen=unseen,
-        calibration=_fitted_errors(nominal, identified, readings.chosen(solution.fit.kept)),
+        calibration=summarise("calibration rows", *(row_sizes(each)[solution.fit.kept] for each in errors.values())),
         validation=held_out.residuals,
         by_sensor=errors_by_sensor(identified, readings, solution.fit.kept, errors),
         outliers=find_outliers(solution.fit),
@@ -112,12 +113,7 @@ def calibrate(campaign: Campaign, solver: Solver | None = None, on_progress: Pro
         solver=solver,
         covariance=covariance,
         free_names=problem.names,
-        at_rows=pose_uncertainty(
-            identified,
-            problem.names,
-            covariance,
-            (readings if campaign.validation is None else campaign.validation).joints,
-        ),
+        at_rows=pose_uncertainty(identified, problem.names, covariance, asked.joints[thinned(asked)]),
         in_workspace=in_workspace,
         set_aside=campaign.set_aside,
         warnings=campaign.warnings + _warnings(solution.fit) + tuple(jump.words for jump in jumps),
@@ -137,10 +133,6 @@ def _beyond(campaign: Campaign, solution: Solution, seed: int) -> tuple[Solution
     """Returns the solution with what held-out rows ask for beyond geometry, and what was tried."""
     found, beyond = go_beyond(solution.fit, campaign.terms, campaign.freedoms is None, seed)
     return (solution if found is solution.fit else continued_by(solution, found)), beyond
-
-
-def _fitted_errors(nominal: Cell, identified: Cell, rows: Readings) -> Residuals:
-    return summarise("calibration rows", error_sizes(nominal, rows), error_sizes(identified, rows))
 
 
 def _notes(campaign: Campaign, identified: Cell, solver: Solver) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ from boresight.arm.conventions import NEARLY_PARALLEL
 from boresight.calibration.campaign import Campaign, Freedom
 from boresight.inference import select_visible
 from boresight.sensing import Cell, Readings
+from boresight.sensing.linear import model_of, triangle_of
 from boresight.units import Quantity
 
 USUAL_WITHIN: dict[Quantity, float] = {"angle": 0.05, "length": 0.02, "number": 0.02}
@@ -64,10 +65,8 @@ def _visible(cell: Cell, readings: Readings, frames: tuple[Freedom, ...], fixed:
     usual = {p.name: USUAL_WITHIN[p.quantity] for p in cell.parameters}
     links = [name for name in link_candidates(cell.arm) if name not in fixed]
     names = [freedom.parameter for freedom in frames] + links
-    columns = [cell.index[name] for name in names]
-    scaled = cell.slopes(readings)[:, :, columns] * [usual[name] for name in names] / readings.std[:, :, None]
-    flat = np.nan_to_num(scaled.reshape(-1, len(names)), nan=0.0)
-    chosen = {names[i] for i in select_visible(flat, list(range(len(names))))}
+    seen = triangle_of(model_of(cell, readings, names), np.zeros(len(names)), 1.0 / readings.std).slopes
+    chosen = {names[i] for i in select_visible(seen * [usual[name] for name in names], list(range(len(names))))}
     return frames + tuple(
         Freedom(name, usual[name], usual[name] / math.sqrt(3.0)) for name in cell.index if name in chosen & set(links)
     )

@@ -11,6 +11,7 @@ from boresight.calibration.problem import rms
 from boresight.calibration.result import ErrorSummary, Residuals
 from boresight.calibration.robust import Fit, refine
 from boresight.sensing import Cell, Readings
+from boresight.sensing.linear import model_of
 
 FOLDS = 5
 
@@ -50,23 +51,28 @@ def by_cross_validation(fit: Fit, seed: int) -> HeldOut:
         fit: the final fit.
         seed: of the assignment of rows to folds.
     """
-    problem = fit.problem.on(np.flatnonzero(fit.kept))
-    count = len(problem.readings)
+    problem, kept = fit.problem, np.flatnonzero(fit.kept)
+    count = len(kept)
     order = np.random.Generator(np.random.Philox(seed)).permutation(count)
     fold = np.empty(count, dtype=int)
     fold[order] = np.arange(count) % min(FOLDS, count)
-    after = np.empty(count)
+    before, after = row_sizes(problem.errors(np.zeros(len(fit.x))))[kept], np.empty(count)
     for number in range(min(FOLDS, count)):
-        trained = problem.on(np.flatnonzero(fold != number))
-        held = np.flatnonzero(fold == number)
-        fitted = trained.fitted(refine(trained, fit.x).best)
-        after[held] = error_sizes(fitted, problem.readings.chosen(held))
-    return HeldOut(f"{FOLDS}-fold cross-validation", error_sizes(problem.cell, problem.readings), after)
+        weight = problem.row_weight.copy()
+        weight[kept[fold == number]] = 0.0
+        trained = problem.weighed(weight, problem.model_std)
+        after[fold == number] = row_sizes(problem.errors(refine(trained, fit.x).best))[kept[fold == number]]
+    return HeldOut(f"{FOLDS}-fold cross-validation", before, after)
 
 
 def error_sizes(cell: Cell, rows: Readings) -> Float[np.ndarray, "rows"]:
     """Returns the size [m] of each row's error: of a range, or the length of a position's error vector."""
-    return np.linalg.norm(cell.errors(rows), axis=1)
+    return row_sizes(model_of(cell, rows, ()).errors(np.empty(0)))
+
+
+def row_sizes(errors: Float[np.ndarray, "rows channels"]) -> Float[np.ndarray, "rows"]:
+    """Returns the size of each row's error; NaN where a beam misses."""
+    return np.linalg.norm(errors, axis=1)
 
 
 def summarise(method: str, before: Float[np.ndarray, "rows"], after: Float[np.ndarray, "rows"]) -> Residuals:

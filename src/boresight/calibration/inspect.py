@@ -29,6 +29,7 @@ from boresight.inference import (
 from boresight.inference.posterior import FLAT_PRIOR
 from boresight.sensing import Cell, Readings
 from boresight.sensing.cell import FRAME_NUMBERS
+from boresight.sensing.linear import model_of, triangle_of
 from boresight.synthetic import draw_configurations, exact_readings
 from boresight.units import UNIT_OF
 
@@ -137,12 +138,11 @@ def inspect(campaign: Campaign, *, rows: int | None = None, seed: int = 0) -> In
         raise InputError(f"{campaign.name}: every parameter is fixed, so there is nothing to inspect")
     problem = Problem(cell, readings, freedoms)
     nominal = np.zeros(len(freedoms))
-    sensitivity = problem.sensitivity(nominal)
+    sensitivity = problem.seen(nominal)
     found = identify_directions(problem.names, sensitivity, problem.scale)
     moves = movements_of(cell, readings.joints, readings.target, problem.names)
     kinds = [joint.type for joint in cell.arm.joints]
-    predicted = cell.predict(readings.joints, readings.target, None, readings.reference, readings.since)
-    missed = int(np.count_nonzero(np.isnan(predicted)))
+    missed = int(np.count_nonzero(np.isnan(_predicted(cell, readings))))
     return Inspection(
         name=campaign.name,
         seed=seed,
@@ -173,19 +173,25 @@ def _drawn(cell: Cell, rows: int, seed: int) -> Readings:
     return exact_readings(cell, *draw_configurations((cell,), rows, seed))
 
 
+def _predicted(cell: Cell, readings: Readings) -> np.ndarray:
+    """Returns (rows, channels) what the nominal cell would read [m]; NaN where a beam misses."""
+    return model_of(cell, replace(readings, values=np.zeros_like(readings.values)), ()).errors(np.empty(0))
+
+
 def _arm_rank(cell: Cell, readings: Readings) -> int:
     """Returns how many combinations of all the arm's, base's and tool's numbers change the readings.
 
     Several markers count as one tool of known shape.
     """
-    slopes = np.nan_to_num(cell.slopes(readings) / readings.std[:, :, None], nan=0.0).reshape(-1, len(cell.parameters))
+    names = [parameter.name for parameter in cell.parameters]
+    slopes = triangle_of(model_of(cell, readings, names), np.zeros(len(names)), 1.0 / readings.std).slopes
     own = {name: [cell.index[f"{name}.{number}"] for number in FRAME_NUMBERS] for name in cell.mounts}
     on_flange = sum(slopes[:, own[name]] @ _with_flange(frame) for name, frame in cell.mounts.items())
     shared = [name for name in cell.moving if name.partition(".")[0] not in cell.mounts]
     flat = np.hstack([slopes[:, [cell.index[name] for name in shared]], on_flange])
     quantities = [cell.parameters[cell.index[name]].quantity for name in shared] + ["length"] * 3 + ["angle"] * 3
-    names = (*shared, *(f"flange.{number}" for number in FRAME_NUMBERS))
-    return identify_directions(names, flat, np.array([_FRAME_SCALE[quantity] for quantity in quantities])).rank
+    moved = (*shared, *(f"flange.{number}" for number in FRAME_NUMBERS))
+    return identify_directions(moved, flat, np.array([_FRAME_SCALE[quantity] for quantity in quantities])).rank
 
 
 def _with_flange(frame: Frame) -> np.ndarray:

@@ -1,4 +1,7 @@
-"""A fit's neighbourhood: the readings as linear functions of its parameters and of what might be added to them."""
+"""A fit's neighbourhood: the readings as linear functions of its parameters and of what might be added to them.
+
+Many rows are thinned: what a few thousand do not ask for is not worth adding.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,7 @@ from jaxtyping import Float, Int
 from boresight.arm import HARMONICS, SAG
 from boresight.calibration.campaign import Freedom, Term
 from boresight.calibration.robust import Fit
+from boresight.calibration.thinning import thinned
 from boresight.inference import Shrunk, Squares, select_visible, shrink
 from boresight.sensing import Cell
 
@@ -104,7 +108,8 @@ def neighbourhood_of(fit: Fit, terms: tuple[Term, ...], learn: bool) -> Neighbou
         terms: what might be added.
         learn: whether the standard deviations of the geometry's own parameters are to be learned too.
     """
-    problem, rows = fit.problem, np.flatnonzero(fit.kept)
+    problem, kept = fit.problem, np.flatnonzero(fit.kept)
+    rows = kept[thinned(problem.readings.chosen(kept))]
     readings, std = problem.readings.chosen(rows), problem.std[rows]
     cell = equipped(problem.cell, terms)
     own = tuple(_own_kind(cell, freedom, terms, learn) for freedom in problem.freedoms)

@@ -1,20 +1,22 @@
-"""Residuals and their exact Jacobian as functions of the free parameters."""
+"""Residuals and their exact Jacobian as functions of the free parameters, block by block."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 from jaxtyping import Float
 
 from boresight.calibration.campaign import Freedom
 from boresight.calibration.plain_cost import PlainCost
-from boresight.inference import posterior_covariance
-from boresight.search import Box
+from boresight.calibration.thinning import thinned
+from boresight.inference import posterior_covariance, posterior_root
+from boresight.search import Box, Triangle, reduced
 from boresight.sensing import Cell, Readings
 from boresight.sensing.compiled import CompiledCost, compile_program, compile_rows
-from boresight.sensing.linear import CompiledModel, ReferenceModel, model_of
+from boresight.sensing.linear import Model, model_of, slopes_of, triangle_of
 
 MISSED_M = 10.0
 """Residual [m] of a beam that looks away from its plane, and of zero slope: worse than any hit, finite."""
@@ -74,7 +76,7 @@ class Problem:
         return [self.cell.index[name] for name in self.names]
 
     @cached_property
-    def model(self) -> CompiledModel | ReferenceModel:
+    def model(self) -> Model:
         """The readings as a function of the free parameters."""
         return model_of(self.cell, self.readings, self.names)
 
@@ -135,21 +137,44 @@ class Problem:
         return np.concatenate([(errors * self._root_weight).ravel(), x / self.prior_std])
 
     def jacobian(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "residuals parameters"]:
-        """Returns the exact derivative of `residual`."""
+        """Returns the exact derivative of `residual`, whole: for few rows, and for tests."""
         return np.vstack([self.sensitivity(x), np.diag(1.0 / self.prior_std)])
 
     def sensitivity(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "values parameters"]:
-        """Returns the derivative of the weighed readings over their standard deviations, priors left out."""
-        return (self._slopes(x) * self._root_weight[:, :, None]).reshape(-1, len(self.columns))
+        """Returns the derivative of the weighed readings over their standard deviations, priors left out, whole."""
+        slopes = slopes_of(self.model, x, self.readings)
+        return (slopes * self._root_weight[:, :, None]).reshape(-1, len(self.columns))
+
+    def square(self, x: Float[np.ndarray, "parameters"]) -> float:
+        """Returns the sum of the squares of `residual`."""
+        errors = np.nan_to_num(self.errors(x), copy=False, nan=MISSED_M)
+        errors *= self._root_weight
+        return float(np.vdot(errors, errors) + np.sum((x / self.prior_std) ** 2))
+
+    def triangle(self, x: Float[np.ndarray, "parameters"]) -> Triangle:
+        """Returns what least squares needs of `residual` and `jacobian`."""
+        prior = np.column_stack([np.diag(1.0 / self.prior_std), x / self.prior_std]).T
+        rows = (block.columns for block in self.model.blocks(x, self._root_weight, MISSED_M))
+        return reduced(chain(rows, [np.ascontiguousarray(prior)]), len(x))
+
+    def seen(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "parameters parameters"]:
+        """Returns the triangular factor R of `sensitivity`: R'R is its own square, and its singular values R's."""
+        at, slopes = self.__dict__.get("_last_seen", (None, None))
+        if at is None or not np.array_equal(at, x):
+            slopes = triangle_of(self.model, x, self._root_weight).slopes
+            self.__dict__["_last_seen"] = x.copy(), slopes  # a fit's end is asked for several times
+        return slopes
 
     def leverage(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels"]:
         """Returns the variance of each predicted value after the fit over the variance of its error."""
-        slopes = self._slopes(x) / self.std[:, :, None]
-        return np.einsum("rci,ij,rcj->rc", slopes, self.covariance(x), slopes, optimize=True)
+        found, root = np.empty(self.std.shape), posterior_root(self.seen(x), self.prior_std).T
+        for block in self.model.blocks(x, 1.0 / self.std, MISSED_M):
+            found[block.rows] = np.sum((root @ block.columns[:-1]) ** 2, axis=0).reshape(-1, self.cell.channels)
+        return found
 
     def covariance(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "parameters parameters"]:
         """Returns the posterior covariance of the free corrections."""
-        return posterior_covariance(self.sensitivity(x), self.prior_std)
+        return posterior_covariance(self.seen(x), self.prior_std)
 
     def fitted(self, x: Float[np.ndarray, "parameters"]) -> Cell:
         """Returns the cell with the corrections applied."""
@@ -165,15 +190,17 @@ class Problem:
         """Returns the same problem on some of the rows."""
         return replace(self, readings=self.readings.chosen(rows), row_weights=self.row_weight[rows])
 
+    def thinned(self) -> Problem:
+        """Returns the same problem on a few of its rows where there are many, else itself; see `thinning`."""
+        rows = thinned(self.readings)
+        return self if len(rows) == len(self.readings) else self.on(rows)
+
     def _compiled(self, loss: float) -> CompiledCost | PlainCost:
         weight, prior = self.usual_std**2 / self.std**2, self.usual_std**2 / self.prior_std**2
         if not all(sensor.readouts for sensor in self.cell.sensors.values()):
             return PlainCost(self, weight, prior, loss)
         program = compile_program(self.cell, self.names, prior, loss)
         return CompiledCost(program, compile_rows(self.cell, self.readings, weight))
-
-    def _slopes(self, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "rows channels parameters"]:
-        return self.model.slopes(x)
 
     @cached_property
     def _root_weight(self) -> Float[np.ndarray, "rows channels"]:

@@ -173,7 +173,8 @@ class Result:
         solver: how it was set.
         covariance: (free, free) posterior covariance of the corrections.
         free_names: the free parameters.
-        at_rows: uncertainty of the tool's pose at the validation rows, or the calibration rows if there are none.
+        at_rows: uncertainty of the tool's pose at the validation rows, or the calibration rows if there are none; of
+            many rows at some thousands.
         in_workspace: uncertainty of the tool's pose at configurations spread within the joints' limits.
         set_aside: rows that were not used.
         jumps: blocks of rows that a sensor read differently, and nobody said so.

@@ -20,7 +20,7 @@ from jaxtyping import Bool, Float, Int
 from boresight.calibration.concentration import concentrated
 from boresight.calibration.problem import Problem
 from boresight.inference import model_std
-from boresight.search import LeastSquares, Outcome, least_squares
+from boresight.search import LeastSquares, Outcome, tall_least_squares
 
 CHANCE = 1e-6
 """A row is left out where its residual is so large that chance alone gives one in a million."""
@@ -113,6 +113,8 @@ def fit(problem: Problem, start: Float[np.ndarray, "parameters"], *, move: bool 
     rows and 25 parameters it ended in a wrong optimum in 15. Without sets that agree, 15 % gross errors were all
     found in 1 of 20 such campaigns, with them in 8 of 8 (more in benchmarks/results.md).
 
+    Of many rows a few are fitted so first (`thinning`), and then all from where those lead.
+
     Args:
         problem: what to fit; its weights and model_std are starting values.
         start: where to begin.
@@ -120,6 +122,9 @@ def fit(problem: Problem, start: Float[np.ndarray, "parameters"], *, move: bool 
     """
     if not move:
         return _settled(problem, LeastSquares.at(start, 0.0), move=False)
+    few = problem.thinned()
+    if few is not problem:
+        return _spread(fit(few, start), problem, ROUNDS)
     best = _settled(problem, refine(problem, start, TRUSTING), move=True)
     tried, others = [best], _other_ways(problem, start)
     while not _explained(best) and (another := next(others, None)) is not None:
@@ -136,7 +141,18 @@ def continued(problem: Problem, start: Float[np.ndarray, "parameters"]) -> Fit:
         problem: what to fit, its weights and model_std those of a fit of nearly the same model.
         start: that fit's end.
     """
+    few = problem.thinned()
+    if few is not problem:
+        return _spread(continued(few, start), problem, HARD_ROUNDS)
     return _settled(problem, refine(problem, start), move=True, soft_rounds=0, rounds=HARD_ROUNDS)
+
+
+def _spread(found: Fit, problem: Problem, rounds: int) -> Fit:
+    """Returns the fit of all rows, of which those that a few of them speak against are left out from the start."""
+    everything = problem.weighed(np.ones(len(problem.readings)), found.problem.model_std)
+    whole = _settled(everything, LeastSquares.at(found.x, 0.0), move=True, soft_rounds=0, rounds=rounds)
+    seconds, evaluations = (getattr(whole.search, n) + getattr(found.search, n) for n in ("seconds", "evaluations"))
+    return replace(whole, search=replace(whole.search, seconds=seconds, evaluations=evaluations))
 
 
 def _explained(found: Fit) -> bool:
@@ -185,7 +201,7 @@ def _settled(
             still_soft = soft and bool(np.any((problem.row_weight > 0.0) & (problem.row_weight < 1.0)))
             search = refine(problem, search.best, ROUGH if still_soft else THOROUGH)
             evaluations += search.evaluations
-    cost = float(np.sum(problem.residual(search.best) ** 2))
+    cost = problem.square(search.best)
     outcome = search.outcome if move else Outcome.CONVERGED
     seconds = before + time.perf_counter() - began
     return Fit(problem, LeastSquares(search.best, cost, outcome, evaluations, seconds), ratio)
@@ -194,10 +210,10 @@ def _settled(
 def refine(problem: Problem, start: Float[np.ndarray, "parameters"], evaluations: int = THOROUGH) -> LeastSquares:
     """Returns the least-squares optimum reached from a start, inside the problem's bounds, its weights as given."""
     if not len(start):
-        return LeastSquares.at(start, float(np.sum(problem.residual(start) ** 2)))
-    return least_squares(
-        problem.residual,
-        problem.jacobian,
+        return LeastSquares.at(start, problem.square(start))
+    return tall_least_squares(
+        problem.square,
+        problem.triangle,
         start,
         scale=problem.scale,
         lower=-problem.half_width,

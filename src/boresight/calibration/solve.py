@@ -123,12 +123,12 @@ def solve(
 
 
 def evolution_task(problem: Problem, solver: Solver) -> Task:
-    """Returns a problem's evolution as a card is given it.
+    """Returns a problem's evolution as a card is given it, on a few of its rows where there are many.
 
     Raises:
         BoresightError: its cost has no compiled form.
     """
-    cost = problem.robust_cost
+    cost = problem.thinned().robust_cost
     if not isinstance(cost, CompiledCost):
         raise BoresightError("device cuda cannot evolve readings of distances: use device cpu, or least squares")
     return task_of(cost, problem.box, solver.evolution, solver.seed)
@@ -137,10 +137,9 @@ def evolution_task(problem: Problem, solver: Solver) -> Task:
 def _evolve(problem: Problem, solver: Solver, on_progress: Progress | None) -> Evolved:
     if solver.device.on_card:
         return evolve_on_card([evolution_task(problem, solver)], solver.device, solver.stops, on_progress)[0]
-    problem.robust_cost.load(solver.evolution, problem.box)
-    return evolve(
-        problem.robust_cost, problem.box, solver.evolution, solver.stops, seed=solver.seed, on_progress=on_progress
-    )
+    cost = problem.thinned().robust_cost
+    cost.load(solver.evolution, problem.box)
+    return evolve(cost, problem.box, solver.evolution, solver.stops, seed=solver.seed, on_progress=on_progress)
 
 
 def continued_by(solution: Solution, further: Fit) -> Solution:

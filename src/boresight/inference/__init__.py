@@ -16,6 +16,7 @@ from boresight.inference.pose import pose_uncertainty as pose_uncertainty
 from boresight.inference.pose import spread_configurations as spread_configurations
 from boresight.inference.pose import uncalibrated_in_words as uncalibrated_in_words
 from boresight.inference.posterior import posterior_covariance as posterior_covariance
+from boresight.inference.posterior import posterior_root as posterior_root
 from boresight.inference.posterior import sources as sources
 from boresight.inference.shrinkage import Shrunk as Shrunk
 from boresight.inference.shrinkage import Squares as Squares

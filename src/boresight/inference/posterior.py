@@ -22,11 +22,23 @@ def posterior_covariance(
         jacobian: derivative of the readings, each divided by its standard deviation.
         prior_std: prior standard deviations, infinite where nothing is believed.
     """
+    root = posterior_root(jacobian, prior_std)
+    return root @ root.T
+
+
+def posterior_root(
+    jacobian: Float[np.ndarray, "residuals parameters"], prior_std: Float[np.ndarray, "parameters"]
+) -> Float[np.ndarray, "parameters directions"]:
+    """Returns H with H H' the covariance: variances made with it, |H' s|^2, are never negative, whatever is unseen.
+
+    Args:
+        jacobian: derivative of the readings, each divided by its standard deviation.
+        prior_std: prior standard deviations, infinite where nothing is believed.
+    """
     scale = np.minimum(prior_std, FLAT_PRIOR)
-    information = (jacobian * scale).T @ (jacobian * scale) + np.eye(len(scale))
-    values, vectors = np.linalg.eigh(information)
-    inverse = (vectors / np.maximum(values, 1.0)) @ vectors.T
-    return inverse * np.outer(scale, scale)
+    # Of the Jacobian itself: in its square, directions seen ten million times better than others would blur them.
+    _, sizes, directions = np.linalg.svd(np.vstack([jacobian * scale, np.eye(len(scale))]), full_matrices=False)
+    return scale[:, None] * directions.T / np.maximum(sizes, 1.0)
 
 
 def sources(std: Float[np.ndarray, "parameters"], prior_std: Float[np.ndarray, "parameters"]) -> tuple[str, ...]:

@@ -15,7 +15,10 @@ from boresight.search.evolve import Stretch as Stretch
 from boresight.search.evolve import evolve as evolve
 from boresight.search.least_squares import LeastSquares as LeastSquares
 from boresight.search.least_squares import least_squares as least_squares
+from boresight.search.least_squares import tall_least_squares as tall_least_squares
 from boresight.search.stopping import Outcome as Outcome
 from boresight.search.stopping import Stops as Stops
 from boresight.search.strategies import STRATEGIES as STRATEGIES
 from boresight.search.strategies import Strategy as Strategy
+from boresight.search.triangles import Triangle as Triangle
+from boresight.search.triangles import reduced as reduced

@@ -73,8 +73,8 @@ class Readings:
         """The median over rows of the length of a row's stated standard deviations [m]."""
         return float(np.median(np.linalg.norm(np.where(self.read, self.std, 0.0), axis=1)))
 
-    def chosen(self, rows: Int[np.ndarray, "some"] | Bool[np.ndarray, "rows"]) -> Readings:
-        """Returns the readings of some rows, by index or mask."""
+    def chosen(self, rows: Int[np.ndarray, "some"] | Bool[np.ndarray, "rows"] | slice) -> Readings:
+        """Returns the readings of some rows, by index, mask or slice."""
         reference = None if self.reference is None else self.reference[rows]
         session = None if self.session is None else self.session[rows]
         return Readings(
