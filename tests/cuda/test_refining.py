@@ -45,7 +45,7 @@ def few_threads(monkeypatch):
         monkeypatch.setattr(refining, "WARP", 4)
 
 
-@pytest.mark.parametrize(("sensor", "convention"), [("laser_ranger", CONVENTIONS[0]), ("position", CONVENTIONS[1])])
+@pytest.mark.parametrize(("sensor", "convention"), [("laser_ranger", CONVENTIONS[1]), ("position", CONVENTIONS[0])])
 def test_it_ends_where_scipy_ends(convention, sensor):
     rng = np.random.default_rng([CONVENTIONS.index(convention), len(sensor)])
     cell = random_cell(rng, planes=2, sensor=sensor, arm=random_arm(rng, 2, convention))

@@ -101,7 +101,7 @@ def solve(
     Args:
         problem: what is fitted to what.
         solver: how.
-        on_progress: called now and then with generations completed and the best cost.
+        on_progress: called now and then with generations completed and the best cost, as if of all rows.
         evolved: the evolution, where it has run already.
     """
     if solver.name == "least-squares":
@@ -137,9 +137,11 @@ def evolution_task(problem: Problem, solver: Solver) -> Task:
 def _evolve(problem: Problem, solver: Solver, on_progress: Progress | None) -> Evolved:
     if solver.device.on_card:
         return evolve_on_card([evolution_task(problem, solver)], solver.device, solver.stops, on_progress)[0]
-    cost = problem.thinned().robust_cost
+    few = problem.thinned()
+    cost, share = few.robust_cost, problem.readings.count / max(few.readings.count, 1)
     cost.load(solver.evolution, problem.box)
-    return evolve(cost, problem.box, solver.evolution, solver.stops, seed=solver.seed, on_progress=on_progress)
+    told = None if on_progress is None else lambda generation, lowest: on_progress(generation, share * lowest)
+    return evolve(cost, problem.box, solver.evolution, solver.stops, seed=solver.seed, on_progress=told)
 
 
 def continued_by(solution: Solution, further: Fit) -> Solution:
@@ -173,8 +175,9 @@ def _stage(name: str, best: Fit, found: Fit) -> Stage:
 
 
 def _evolution(best: Fit, evolved: Evolved) -> Stage:
+    few, rows = len(best.problem.thinned().readings), len(best.problem.readings)
     return Stage(
-        "evolution",
+        "evolution" if few == rows else f"evolution on {few:,} of {rows:,} rows",
         trimmed_cost(best.problem, evolved.best),
         _used_rms(best, evolved.best),
         evolved.seconds,
