@@ -1,4 +1,4 @@
-"""observations.csv: every row either becomes a reading or is set aside with its reason."""
+"""observations.csv, or Parquet: every row either becomes a reading or is set aside with its reason."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from boresight.calibration.campaign import SetAside
 from boresight.errors import InputError
 from boresight.files.columns import QUATERNION, Columns
 from boresight.files.dialects import described, in_house_words
+from boresight.files.parquet import as_csv, is_parquet
 from boresight.files.problems import Problems, printable
 from boresight.files.schemas import LARGEST, SMALLEST
 from boresight.files.sources import Source, read_source
@@ -58,7 +59,7 @@ def read_observations(
     named_by: str = "",
     need_values: bool = True,
 ) -> Observations:
-    """Returns the readings of a CSV file, in metres and radians.
+    """Returns the readings of a CSV or Parquet file, in metres and radians.
 
     Args:
         path: where it is.
@@ -74,11 +75,16 @@ def read_observations(
     """
     name = str(path) if name is None else name
     mend = "thin it or split it"
-    source = read_source(Path(path), name, kind="a CSV file", limit_mib=LIMIT_MIB, mend=mend, named_by=named_by)
+    packed = is_parquet(Path(path))
+    kind = "a Parquet file" if packed else "a CSV file"
+    source = read_source(Path(path), name, kind=kind, limit_mib=LIMIT_MIB, mend=mend, named_by=named_by, binary=packed)
+    sha256 = source.sha256
+    if packed:
+        source = as_csv(source, limit_mib=LIMIT_MIB, named_by=named_by)
     ours, translation = in_house_words(source, cell.arm.joints, units)
     found = observations_of(ours, cell, units, need_values=need_values)
     notes = (printable(f"{name}: {described(translation)}"),) if translation else ()
-    return replace(found, sha256=source.sha256, notes=notes)
+    return replace(found, sha256=sha256, notes=notes)
 
 
 def observations_of(source: Source, cell: Cell, units: Units, *, need_values: bool = True) -> Observations:

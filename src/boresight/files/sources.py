@@ -33,7 +33,9 @@ class Source:
         return hashlib.sha256(self.content).hexdigest()
 
 
-def read_source(path: Path, name: str, *, kind: str, limit_mib: int, mend: str, named_by: str = "") -> Source:
+def read_source(
+    path: Path, name: str, *, kind: str, limit_mib: int, mend: str, named_by: str = "", binary: bool = False
+) -> Source:
     """Returns a file's content.
 
     Args:
@@ -43,6 +45,7 @@ def read_source(path: Path, name: str, *, kind: str, limit_mib: int, mend: str, 
         limit_mib: larger files are refused before a byte is read.
         mend: what to do about a file that is too large.
         named_by: the place that names the file, as the beginning of a sentence.
+        binary: whether it is anything but text.
 
     Raises:
         InputError: it is missing, not a regular file, not readable, too large, or not text.
@@ -70,7 +73,7 @@ def read_source(path: Path, name: str, *, kind: str, limit_mib: int, mend: str, 
     except (OSError, ValueError) as error:  # ValueError: a name with a NUL or a lone surrogate
         reason = error.strerror if isinstance(error, OSError) and error.strerror else "no file can be called that"
         raise refused(f"it cannot be read: {reason}; expected {kind}") from None
-    if b"\0" in content:
+    if not binary and b"\0" in content:
         raise refused(f"the file is binary or UTF-16, it holds NUL bytes; expected {kind} in UTF-8 text")
     return Source(path, name, content)
 
