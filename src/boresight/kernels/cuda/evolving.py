@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from numba import cuda, float64, from_dtype, int32
+from numba.core import config
 
 from boresight.kernels.breeding import component, parents
 from boresight.kernels.cuda.batches import Shape
@@ -33,6 +34,7 @@ def evolving_kernel(shape: Shape, precision: str) -> Any:
     half = 1
     while 2 * half < threads:
         half *= 2
+    limits = {} if config.ENABLE_CUDASIM else {"max_registers": shape.registers(real)}  # type: ignore[attr-defined]
     cost, kind = cost_function(shape, real), from_dtype(np.dtype(real))
 
     @cuda.jit(device=True)
@@ -66,7 +68,7 @@ def evolving_kernel(shape: Shape, precision: str) -> Any:
             if rank < elite:
                 leaders[run, rank] = i
 
-    @cuda.jit(fastmath=True)
+    @cuda.jit(fastmath=True, **limits)
     def kernel(
         program, rows, lower, upper, strategy, from_current, downhill, keys, first, limits,
         members, costs, stale, reference, done, history, trials, trial_costs, leaders,
