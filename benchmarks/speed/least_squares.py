@@ -25,7 +25,7 @@ def measure(readings: int, rounds: int) -> list[Line]:
     problem, start = believed(readings), np.zeros(len(believed(readings).names))
     entries = [
         Entry("Boresight, refine", _run(problem, lambda: refine(problem, start).best), is_ours=True),
-        Entry("Boresight, robust fit", _run(problem, lambda: fit(problem, start).x), "gross errors looked for"),
+        Entry("Boresight, robust fit", _run(problem, lambda: fit(problem, start).x), "looks for outliers"),
     ]
     for method in ("lm", "trf"):
         for how in ("our Jacobian", "2-point"):

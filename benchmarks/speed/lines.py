@@ -10,7 +10,7 @@ import numpy as np
 from benchmarks.report import Table
 from benchmarks.speed.timing import Timed
 
-HEADER = ("workload", "who", "median", "min", "ratio to ours", "runs", "ends at", "notes")
+HEADER = ("workload", "who", "median", "min", "x ours", "runs", "ends at", "notes")
 
 
 @dataclass(frozen=True)

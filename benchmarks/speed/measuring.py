@@ -31,17 +31,19 @@ def measure(quick: bool) -> Report:
     lines += monte_carlo.measure(300 if quick else 600, 1 if quick else 3)
     lines += start_up.measure(3 if quick else 9, 1 if quick else 2)
     ended, notes = end_to_end.measure(FEW_SIZES if quick else SIZES, 1 if quick else 3)
+    kernel, peak = roofline.kernel_bits(), vector_bits()
     minutes = (time.perf_counter() - began) / 60.0
     return Report(
         "speed",
-        f"One core unless said, vectors of {vector_bits()} bits; {EVALUATIONS:,} evaluations an identification. "
+        f"One core unless said, vectors of {kernel} bits in the kernel and {peak} in the peak; "
+        f"{EVALUATIONS:,} evaluations an identification. "
         "`ends at` is the median run's error and the worst one's. See the docstrings of benchmarks/speed. "
         f"Measured in {minutes:.0f} minutes; other processes may have shared the machine.",
         figures(lines, roofs, ended),
         (table_of(lines), roofline.table_of(roofs), end_to_end.table_of(ended)),
         tuple(notes + absent()),
         {
-            "vector_bits": vector_bits(),
+            "vector_bits": {"kernel": kernel, "peak": peak},
             "lines": [line.as_values() for line in lines],
             "roofline": [roof.as_values() for roof in roofs],
             "end_to_end": [each.as_values() for each in ended],

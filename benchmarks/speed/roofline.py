@@ -10,14 +10,17 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
+import numba
 import numpy as np
 
 from benchmarks.report import Table
 from benchmarks.speed.cases import MEMBERS, plain
 from benchmarks.speed.operations import Operations, operations
-from benchmarks.speed.peak import peak_rate
+from benchmarks.speed.peak import peak_rate, vector_bits
 from benchmarks.speed.timing import say
-from boresight.kernels.programs import Rows, aligned, padded, workspace
+from boresight.calibration.problem import Problem
+from boresight.kernels import sweeping
+from boresight.kernels.programs import Program, Rows, aligned, padded, workspace
 from boresight.kernels.sweeping import sweep
 from boresight.sensing.compiled import compile_program, compile_rows
 
@@ -81,8 +84,8 @@ def measure(readings: int, seconds: float) -> Roof:
     """Returns the sweep over a number of readings, measured for some seconds."""
     say(f"roofline: {readings:,} configurations")
     problem = plain(min(readings, DRAWN))
-    program = compile_program(problem.cell, problem.names, np.zeros(len(problem.names)))
-    rows = repeated(compile_rows(problem.cell, problem.readings, np.ones(problem.readings.values.shape)), readings)
+    program, rows = _compiled(problem)
+    rows = repeated(rows, readings)
     work, costs = workspace(program), aligned(padded(MEMBERS))
     lanes = aligned(len(problem.names), padded(MEMBERS))
     box = problem.box
@@ -102,6 +105,23 @@ def measure(readings: int, seconds: float) -> Roof:
     return Roof(readings, operations(program, rows), np.array(times), np.array(peaks))
 
 
+def kernel_bits() -> int:
+    """Returns the width of the vectors in the loop over readings, read off its assembly.
+
+    Compiled again for that, with the same flags: code that comes from the disk does not tell its assembly.
+    """
+    program, rows = _compiled(plain(READINGS[0]))
+    work = workspace(program)
+    tile = numba.njit(fastmath=True, error_model="numpy", nogil=True)(sweeping._sweep_tile.py_func)
+    tile(program, rows, work.planes, work.links, work.sensor, work.state, work.costs)
+    return vector_bits(tile)
+
+
+def _compiled(problem: Problem) -> tuple[Program, Rows]:
+    program = compile_program(problem.cell, problem.names, np.zeros(len(problem.names)))
+    return program, compile_rows(problem.cell, problem.readings, np.ones(problem.readings.values.shape))
+
+
 def repeated(rows: Rows, readings: int) -> Rows:
     """Returns rows that come again until there are as many as asked for, each in memory of its own."""
     place = np.arange(readings) % len(rows.reading)
@@ -111,8 +131,8 @@ def repeated(rows: Rows, readings: int) -> Rows:
 def table_of(roofs: list[Roof]) -> Table:
     """Returns the roofline as text."""
     header = (
-        "configurations", "ns a range, median", "min", "operations a range", "of which links and planes",
-        "Gflop/s", "peak, Gflop/s", "fraction of peak", "of best runs", "runs",
+        "configurations", "ns a range, median", "min", "operations a range", "in links and planes",
+        "Gflop/s", "peak, Gflop/s", "share of peak", "of best runs", "runs",
     )  # fmt: skip
     rows = []
     for roof in roofs:

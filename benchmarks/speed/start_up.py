@@ -49,6 +49,6 @@ def measure(rounds: int, cold_rounds: int) -> list[Line]:
         warm(0)
         timed = interleaved([Entry(HELP, help_), Entry(WARM, warm)], rounds, title="start-up")
         first = interleaved([Entry(COLD, cold)], cold_rounds, title="start-up", warm=False)
-        said = "compiling announced on stderr" if all(announced) else "compiling NOT announced on stderr"
+        said = "compiling announced" if all(announced) else "NOT announced"
     lines = lines_of("process", timed) + lines_of("process", first)
     return [replace(line, notes=said) if line.who == COLD else line for line in lines]

@@ -8,7 +8,7 @@ import warnings
 
 import numpy as np
 import pytest
-from benchmarks.speed import identification, least_squares, peak, roofline
+from benchmarks.speed import batch, identification, least_squares, peak, roofline
 from benchmarks.speed.cases import plain
 from benchmarks.speed.claims import figures
 from benchmarks.speed.gpu import parting
@@ -20,6 +20,11 @@ from benchmarks.speed.peers.costs import hold_to_ours, numpy_cost
 @pytest.mark.parametrize("rows", [35, 100])
 def test_peers_costs_are_ours(rows):
     hold_to_ours(plain(rows), members=40)
+
+
+def test_batches_end_alike():
+    ends = [line.end for line in batch.measure(1_000, 1)]
+    np.testing.assert_allclose(ends, ends[0], rtol=1e-9)
 
 
 def test_blocks_of_configurations_add_up(monkeypatch):

@@ -6,8 +6,8 @@ are held to our own before anything is timed (`hold_to_ours`).
 - *NumPy*, whole arrays (configurations, members), members side by side in memory, in blocks of configurations that
   stay in the second-level cache, links that cannot tilt left out. The other way round (members, configurations) and
   with every link turned by beta, 150 members and 35 readings took 0.74 ms instead of 0.51.
-- *Compiled*, one member a call, vectorised over the readings, compiled with our flags; in a compiled loop over
-  members where a peer hands over many.
+- *Compiled*, one member a call, vectorised over the readings, in blocks, compiled with our flags; in a
+  compiled loop over members where a peer hands over many.
 - *Ours*, `Problem.cost`: a population a call, or one member where a peer takes no more. A tile of 40 lanes is then
   filled with one member, which is what such a caller pays for it.
 """
@@ -27,6 +27,10 @@ NUMBERS = ("theta", "d", "a", "alpha", "beta")
 BLOCK = 1 << 14
 """Numbers of a whole-array temporary: 128 kB. With 1,000 readings, 64 to 128 kB took 89 ns a range, 256 kB 103, 1 MB
 130."""
+
+ROWS = 500
+"""Readings that a compiled cost carries through the links together, its state in the first-level cache: 100,000 in one
+piece took 12 ns a range, in pieces of 250 to 1,000 4.3 to 4.8."""
 
 BatchCost = Callable[[np.ndarray], np.ndarray]
 """Of (members, parameters)."""
@@ -84,43 +88,56 @@ def numpy_cost(problem: Problem) -> BatchCost:
 
 
 @numba.njit(fastmath=True, error_model="numpy")
-def _compiled_cost(x, nominal, column, plane, plane_column, cosine, sine, measured, state):
-    value = np.empty(4)
-    for i in range(4):
-        value[i] = plane[i] + (x[plane_column[i]] if plane_column[i] >= 0 else 0.0)
-    value[1] = np.sqrt(max(1.0 - value[0] ** 2 - value[2] ** 2, 0.0))
-    nx, ny, nz, f = state[0], state[1], state[2], state[3]
-    nx[:], ny[:], nz[:], f[:] = value[0], value[1], value[2], value[3]
-    link = np.empty(5)
+def _moved(x, value, place):
+    return value + (x[place] if place >= 0 else 0.0)
+
+
+@numba.njit(fastmath=True, error_model="numpy")
+def _compiled_cost(x, nominal, column, plane, plane_column, cosine, sine, measured, state, links):
+    x_0, z_0 = _moved(x, plane[0], plane_column[0]), _moved(x, plane[2], plane_column[2])
+    y_0, f_0 = np.sqrt(max(1.0 - x_0 * x_0 - z_0 * z_0, 0.0)), _moved(x, plane[3], plane_column[3])
     for j in range(nominal.shape[0]):
-        for k in range(5):
-            link[k] = nominal[j, k] + (x[column[j, k]] if column[j, k] >= 0 else 0.0)
-        st, ct, d, a = np.sin(link[0]), np.cos(link[0]), link[1], link[2]
-        sa, ca, sb, cb = np.sin(link[3]), np.cos(link[3]), np.sin(link[4]), np.cos(link[4])
-        cq, sq = cosine[j], sine[j]
-        for i in range(measured.shape[0]):
-            s, c = sq[i] * ct + cq[i] * st, cq[i] * ct - sq[i] * st
-            u, v, w = c * nx[i] + s * ny[i], c * ny[i] - s * nx[i], nz[i]
-            f[i] += w * d + u * a
-            ny[i], t = ca * v + sa * w, ca * w - sa * v
-            nx[i], nz[i] = cb * u - sb * t, sb * u + cb * t
+        theta, alpha = _moved(x, nominal[j, 0], column[j, 0]), _moved(x, nominal[j, 3], column[j, 3])
+        beta = _moved(x, nominal[j, 4], column[j, 4])
+        links[j, 0], links[j, 1] = np.sin(theta), np.cos(theta)
+        links[j, 2], links[j, 3] = np.sin(alpha), np.cos(alpha)
+        links[j, 4], links[j, 5] = np.sin(beta), np.cos(beta)
+        links[j, 6], links[j, 7] = _moved(x, nominal[j, 1], column[j, 1]), _moved(x, nominal[j, 2], column[j, 2])
+    nx, ny, nz, f = state[0], state[1], state[2], state[3]
     total = 0.0
-    for i in range(measured.shape[0]):
-        residual = -f[i] / nz[i] - measured[i]
-        total += residual * residual
+    for first in range(0, measured.shape[0], state.shape[1]):
+        rows = min(state.shape[1], measured.shape[0] - first)
+        nx[:], ny[:], nz[:], f[:] = x_0, y_0, z_0, f_0
+        for j in range(nominal.shape[0]):
+            st, ct, sa, ca = links[j, 0], links[j, 1], links[j, 2], links[j, 3]
+            sb, cb, d, a = links[j, 4], links[j, 5], links[j, 6], links[j, 7]
+            cq, sq = cosine[j, first:], sine[j, first:]
+            for i in range(rows):
+                s, c = sq[i] * ct + cq[i] * st, cq[i] * ct - sq[i] * st
+                u, v, w = c * nx[i] + s * ny[i], c * ny[i] - s * nx[i], nz[i]
+                f[i] += w * d + u * a
+                ny[i], t = ca * v + sa * w, ca * w - sa * v
+                nx[i], nz[i] = cb * u - sb * t, sb * u + cb * t
+        for i in range(rows):
+            residual = -f[i] / nz[i] - measured[first + i]
+            total += residual * residual
     return total
 
 
 @numba.njit
-def _compiled_costs(members, costs, nominal, column, plane, plane_column, cosine, sine, measured, state):
+def _compiled_costs(members, costs, nominal, column, plane, plane_column, cosine, sine, measured, state, links):
     for i in range(members.shape[0]):
-        costs[i] = _compiled_cost(members[i], nominal, column, plane, plane_column, cosine, sine, measured, state)
+        costs[i] = _compiled_cost(
+            members[i], nominal, column, plane, plane_column, cosine, sine, measured, state, links
+        )
 
 
 def _arguments(problem: Problem) -> tuple[np.ndarray, ...]:
     cosine, sine = (np.ascontiguousarray(g(problem.readings.joints).T) for g in (np.cos, np.sin))
     measured = problem.readings.values[:, 0].copy()
-    return (*link_table(problem), cosine, sine, measured, np.empty((4, len(measured))))
+    nominal, *rest = link_table(problem)
+    state, links = np.empty((4, min(len(measured), ROWS))), np.empty((len(nominal), 8))
+    return nominal, *rest, cosine, sine, measured, state, links
 
 
 def compiled_cost(problem: Problem) -> ScalarCost:

@@ -56,7 +56,7 @@ def _entry(problem: Problem, algorithm: Any, settings: dict[str, Any], how: str,
     import pygmo
 
     asked = pygmo.problem(Asked(cost, problem))
-    notes = "variant 8" if "F" in settings else "variant 8, F and CR adapt"
+    notes = "variant 8" if "F" in settings else "variant 8, adapts"
 
     def run(seed: int) -> float:
         population = pygmo.population(asked, MEMBERS, seed=seed)
