@@ -16,44 +16,43 @@ TILE = 128
 
 
 @compiled
-def _fold_tile(triangle, tile):
-    for j in range(tile.shape[0]):
-        pivot, square = tile[j], 0.0
-        for t in range(TILE):
-            square += pivot[t] * pivot[t]
-        if square == 0.0:
-            continue
-        above = triangle[j, j]
-        size = np.sqrt(above * above + square)
-        beta = -size if above > 0.0 else size
-        lead = above - beta  # the reflection's vector is 1 above and pivot / lead below
-        factor = -lead / beta
-        triangle[j, j] = beta
-        for k in range(j + 1, tile.shape[0]):
-            column, product = tile[k], 0.0
-            for t in range(TILE):
-                product += pivot[t] * column[t]
-            along = factor * (triangle[j, k] + product / lead)
-            triangle[j, k] -= along
-            share = along / lead
-            for t in range(TILE):
-                column[t] -= share * pivot[t]
-
-
-@compiled
 def fold(triangle, block):
     """Makes R of [R; B] of R in place.
+
+    One function, for one that it called would be compiled twice, within it and beside it: a process that compiles ran
+    the other than a process that loads from disk, and the two differed in the last digits.
 
     Args:
         triangle: (columns, columns) R, upper triangular; zeros to begin with.
         block: (columns, rows) B, turned; what is left in it means nothing.
     """
-    tile = np.empty((block.shape[0], TILE))
+    columns = block.shape[0]
+    tile = np.empty((columns, TILE))
     for start in range(0, block.shape[1], TILE):
         count = min(TILE, block.shape[1] - start)
-        for column in range(block.shape[0]):
+        for column in range(columns):
             for t in range(count):
                 tile[column, t] = block[column, start + t]
             for t in range(count, TILE):
                 tile[column, t] = 0.0
-        _fold_tile(triangle, tile)
+        for j in range(columns):
+            pivot, square = tile[j], 0.0
+            for t in range(TILE):
+                square += pivot[t] * pivot[t]
+            if square == 0.0:
+                continue
+            above = triangle[j, j]
+            size = np.sqrt(above * above + square)
+            beta = -size if above > 0.0 else size
+            lead = above - beta  # the reflection's vector is 1 above and pivot / lead below
+            factor = -lead / beta
+            triangle[j, j] = beta
+            for k in range(j + 1, columns):
+                other, product = tile[k], 0.0
+                for t in range(TILE):
+                    product += pivot[t] * other[t]
+                along = factor * (triangle[j, k] + product / lead)
+                triangle[j, k] -= along
+                share = along / lead
+                for t in range(TILE):
+                    other[t] -= share * pivot[t]
