@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from boresight.kernels.cuda import batches, running
+from boresight.kernels.cuda.evolving import evolving_kernel
 from boresight.search import STRATEGIES, Box, Device, DifferentialEvolution, Outcome, Stops, evolve
 from boresight.sensing.compiled import CompiledCost, compile_program, compile_rows
 from boresight.sensing.on_card import evolve_on_card, task_of
@@ -86,9 +87,9 @@ def test_a_population_too_large_for_shared_memory_takes_the_same_path(monkeypatc
     settings = DifferentialEvolution(population=MEMBERS + 1)
     expected, here = both(cost, box, settings)
     monkeypatch.setattr(batches, "SHARED_BYTES", 0)
-    running.evolving_kernel.cache_clear()
+    evolving_kernel.cache_clear()
     there, _ = both(cost, box, settings)
-    running.evolving_kernel.cache_clear()
+    evolving_kernel.cache_clear()
     assert_same_path(there, here, rtol=1e-9)
     np.testing.assert_array_equal(there.history, expected.history)
 

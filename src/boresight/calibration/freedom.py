@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from boresight.arm import LINK_NUMBERS, Arm
 from boresight.arm.conventions import NEARLY_PARALLEL
 from boresight.calibration.campaign import Campaign, Freedom
 from boresight.inference import select_visible
 from boresight.sensing import Cell, Readings
-from boresight.sensing.linear import model_of, triangle_of
+from boresight.sensing.linear import seen_by
 from boresight.units import Quantity
 
 USUAL_WITHIN: dict[Quantity, float] = {"angle": 0.05, "length": 0.02, "number": 0.02}
@@ -65,7 +63,7 @@ def _visible(cell: Cell, readings: Readings, frames: tuple[Freedom, ...], fixed:
     usual = {p.name: USUAL_WITHIN[p.quantity] for p in cell.parameters}
     links = [name for name in link_candidates(cell.arm) if name not in fixed]
     names = [freedom.parameter for freedom in frames] + links
-    seen = triangle_of(model_of(cell, readings, names), np.zeros(len(names)), 1.0 / readings.std).slopes
+    seen = seen_by(cell, readings, names)
     chosen = {names[i] for i in select_visible(seen * [usual[name] for name in names], list(range(len(names))))}
     return frames + tuple(
         Freedom(name, usual[name], usual[name] / math.sqrt(3.0)) for name in cell.index if name in chosen & set(links)

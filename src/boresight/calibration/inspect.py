@@ -29,7 +29,7 @@ from boresight.inference import (
 from boresight.inference.posterior import FLAT_PRIOR
 from boresight.sensing import Cell, Readings
 from boresight.sensing.cell import FRAME_NUMBERS
-from boresight.sensing.linear import model_of, triangle_of
+from boresight.sensing.linear import model_of, seen_by
 from boresight.synthetic import draw_configurations, exact_readings
 from boresight.units import UNIT_OF
 
@@ -183,15 +183,14 @@ def _arm_rank(cell: Cell, readings: Readings) -> int:
 
     Several markers count as one tool of known shape.
     """
-    names = [parameter.name for parameter in cell.parameters]
-    slopes = triangle_of(model_of(cell, readings, names), np.zeros(len(names)), 1.0 / readings.std).slopes
+    slopes = seen_by(cell, readings, [parameter.name for parameter in cell.parameters])
     own = {name: [cell.index[f"{name}.{number}"] for number in FRAME_NUMBERS] for name in cell.mounts}
     on_flange = sum(slopes[:, own[name]] @ _with_flange(frame) for name, frame in cell.mounts.items())
     shared = [name for name in cell.moving if name.partition(".")[0] not in cell.mounts]
     flat = np.hstack([slopes[:, [cell.index[name] for name in shared]], on_flange])
     quantities = [cell.parameters[cell.index[name]].quantity for name in shared] + ["length"] * 3 + ["angle"] * 3
-    moved = (*shared, *(f"flange.{number}" for number in FRAME_NUMBERS))
-    return identify_directions(moved, flat, np.array([_FRAME_SCALE[quantity] for quantity in quantities])).rank
+    names = (*shared, *(f"flange.{number}" for number in FRAME_NUMBERS))
+    return identify_directions(names, flat, np.array([_FRAME_SCALE[quantity] for quantity in quantities])).rank
 
 
 def _with_flange(frame: Frame) -> np.ndarray:

@@ -11,7 +11,7 @@ from boresight.calibration.campaign import Campaign, Freedom
 from boresight.calibration.freedom import USUAL_WITHIN, link_candidates
 from boresight.inference import listed
 from boresight.sensing import Cell, Readings
-from boresight.sensing.linear import model_of, triangle_of
+from boresight.sensing.linear import seen_by
 
 _NAMED = 0.05
 """Parameters that explain less than this share of another are not named as its explanation."""
@@ -76,8 +76,7 @@ def _explained(cell: Cell, readings: Readings, unseen: list[str], free: list[str
     if not unseen:
         return []
     quantity = {parameter.name: parameter.quantity for parameter in cell.parameters}
-    seen = triangle_of(model_of(cell, readings, names), np.zeros(len(names)), 1.0 / readings.std).slopes
-    flat = seen * [USUAL_WITHIN[quantity[name]] for name in names]
+    flat = seen_by(cell, readings, names) * [USUAL_WITHIN[quantity[name]] for name in names]
     chosen, rest = flat[:, : len(free)], flat[:, len(free) :]
     largest = float(np.linalg.norm(flat, axis=0).max(initial=0.0))
     parts = np.linalg.lstsq(chosen, rest, rcond=None)[0] if free else np.empty((0, len(unseen)))

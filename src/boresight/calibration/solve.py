@@ -11,6 +11,7 @@ from jaxtyping import Float
 
 from boresight.calibration.problem import Problem, rms
 from boresight.calibration.robust import Fit, fit, trimmed_cost
+from boresight.calibration.thinning import thinned
 from boresight.errors import BoresightError
 from boresight.kernels.cuda.batches import Task
 from boresight.search import CPU, Device, DifferentialEvolution, Evolved, Stops, evolve
@@ -135,13 +136,13 @@ def evolution_task(problem: Problem, solver: Solver) -> Task:
 
 
 def _evolve(problem: Problem, solver: Solver, on_progress: Progress | None) -> Evolved:
-    if solver.device.on_card:
-        return evolve_on_card([evolution_task(problem, solver)], solver.device, solver.stops, on_progress)[0]
     few = problem.thinned()
-    cost, share = few.robust_cost, problem.readings.count / max(few.readings.count, 1)
-    cost.load(solver.evolution, problem.box)
+    share = problem.readings.count / max(few.readings.count, 1)
     told = None if on_progress is None else lambda generation, lowest: on_progress(generation, share * lowest)
-    return evolve(cost, problem.box, solver.evolution, solver.stops, seed=solver.seed, on_progress=told)
+    if solver.device.on_card:
+        return evolve_on_card([evolution_task(few, solver)], solver.device, solver.stops, told)[0]
+    few.robust_cost.load(solver.evolution, problem.box)
+    return evolve(few.robust_cost, problem.box, solver.evolution, solver.stops, seed=solver.seed, on_progress=told)
 
 
 def continued_by(solution: Solution, further: Fit) -> Solution:
@@ -175,7 +176,7 @@ def _stage(name: str, best: Fit, found: Fit) -> Stage:
 
 
 def _evolution(best: Fit, evolved: Evolved) -> Stage:
-    few, rows = len(best.problem.thinned().readings), len(best.problem.readings)
+    few, rows = len(thinned(best.problem.readings)), len(best.problem.readings)
     return Stage(
         "evolution" if few == rows else f"evolution on {few:,} of {rows:,} rows",
         trimmed_cost(best.problem, evolved.best),

@@ -80,7 +80,7 @@ def run_study(
 
 def _run(asked: Study, file: Path, workers, scheduler, part: Shard, errors: Console, *, quiet: bool):
     """Returns whether the study was interrupted, and its summary if not."""
-    on_card = any(point.settings.device.on_card for point in asked.points)
+    on_card = any(point.on_card for point in asked.points)
     evolving = next((point for point in asked.points if point.evolves), None)
     needed = (linearise_rows, *([evolve_generations] if evolving else []))
     if scheduler is None and not on_card and told_of_compiling(*needed):

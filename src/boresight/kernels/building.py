@@ -48,7 +48,6 @@ def build_links(program, members, start, links, scratch):
             links[k + _TX], links[k + _TY], links[k + _TZ] = 0.0, 0.0, 0.0
         for motion in range(program.segment_start[segment], program.segment_start[segment + 1]):
             axis = program.motion_axis[motion]
-            row, share = _moves(program.motion_parameter[motion])
             if program.motion_kind[motion] == TURN:
                 _write_turn(program, motion, members, first, scratch)
                 if axis == 0:
@@ -59,6 +58,7 @@ def build_links(program, members, start, links, scratch):
                     _turn_columns(links, link, _XX, _YX, scratch)
             else:
                 value = program.motion_value[motion]
+                row, share = _moves(program.motion_parameter[motion])
                 if axis == 0:
                     _shift_along(links, link, _XX, value, share, members, row, first)
                 elif axis == 1:

@@ -178,6 +178,14 @@ def triangle_of(model: Model, x: Float[np.ndarray, "free"], weight: Float[np.nda
     return reduced((block.columns for block in model.blocks(x, weight, 0.0)), len(x))
 
 
+def seen_by(cell: Cell, readings: Readings, free: Sequence[str]) -> Float[np.ndarray, "free free"]:
+    """Returns the triangular factor of what readings see of parameters, nominally and over their stated noise.
+
+    R'R is the derivatives' own square, so columns' lengths and angles, ranks and combinations are theirs.
+    """
+    return triangle_of(model_of(cell, readings, free), np.zeros(len(free)), 1.0 / readings.std).slopes
+
+
 def is_compiled(cell: Cell) -> bool:
     """Returns whether a cell is of the kind that the compiled loops linearise.
 

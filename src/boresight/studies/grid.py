@@ -153,6 +153,11 @@ class Point:
         """Whether an evolution is part of it."""
         return self.settings.solver != "least-squares"
 
+    @property
+    def on_card(self) -> bool:
+        """Whether a card runs it."""
+        return self.evolves and self.settings.device.on_card
+
     @cached_property
     def key(self) -> str:
         """A digest of all that decides its outcomes, and of nothing else: not the study's name, nor the grid."""
@@ -185,7 +190,7 @@ class Point:
         numbers = {name: getattr(settings, name) for name in ("rows", "gross_errors", "solver", "validation_rows")}
         if self.evolves:
             numbers |= {n: getattr(settings, n) for n in ("strategy", "population", "generations", "patience")}
-        if self.evolves and settings.device.on_card:
+        if self.on_card:
             numbers["device"] = str(settings.device)
         return numbers
 

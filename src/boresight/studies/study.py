@@ -111,10 +111,8 @@ def _make(store: Store, mine: Sequence[Run], pool: Executor, threads: int, on_pr
     left = missing(store, mine)
     done = len(mine) - len(left)
     on_progress(done, len(mine))
-    on_card = [each for each in left if each[0].evolves and each[0].settings.device.on_card]
-    here: list[EvolvedRun] = [
-        (point, seed, None) for point, seed in left if not (point.evolves and point.settings.device.on_card)
-    ]
+    on_card = [(point, seed) for point, seed in left if point.on_card]
+    here: list[EvolvedRun] = [(point, seed, None) for point, seed in left if not point.on_card]
     for some in itertools.chain([here], evolved_runs(on_card, pool)):
         tasks = _Tasks(some)
         for place, outcomes in completed(pool, run_task, tasks, ahead=threads * (1 + AHEAD), retries=RETRIES):

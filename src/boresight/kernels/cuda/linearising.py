@@ -22,7 +22,7 @@ def linearising_functions(shape: Shape) -> tuple[Any, Any]:
     motion its length or angle, sine and cosine; of each plane its normal and offset and their derivatives by two
     components of the normal.
 
-    `linearise(program, rows, run, row, motions, planes, bias, slopes, place, wanted)` returns the weighted error of a
+    `linearise(program, rows, run, row, motions, planes, x, slopes, place, wanted)` returns the weighted error of a
     row, and writes its derivatives from `slopes[place]` on where they are wanted.
     """
     joints, parameters = shape.joints, shape.parameters

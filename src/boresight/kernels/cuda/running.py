@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numba import cuda
 
 from boresight.errors import BoresightError
 from boresight.kernels.cuda.batches import Batch, Task, batch_of
-from boresight.kernels.cuda.evolving import evolving_kernel
+from boresight.kernels.cuda.launching import Launch, on_card
 from boresight.kernels.cuda.refining import refining_kernel, refining_threads
 from boresight.kernels.programs import POINT
+
+Ended = TypeVar("Ended")
 
 _MEMORY_BYTES = 2**30
 """What a launch may take on the card."""
@@ -53,17 +55,12 @@ def evolve_tasks(
         limits: cost at which to stop, stale generations at which to stop, relative improvement that counts.
         on_progress: called with the generations completed and the lowest cost of a batch.
     """
-    kinds: dict[tuple, list[int]] = {}
-    for place, task in enumerate(tasks):
-        kinds.setdefault(task.kind, []).append(place)
-    found: dict[int, Run] = {}
-    for places in kinds.values():
-        together = _together(tasks[places[0]], real, generations)
-        for first in range(0, len(places), together):
-            chosen = places[first : first + together]
-            batch = batch_of([tasks[place] for place in chosen], real)
-            found.update(zip(chosen, _evolve(batch, real, generations, limits, on_progress), strict=True))
-    return [found[place] for place in range(len(tasks))]
+    return _in_batches(
+        tasks,
+        real,
+        lambda task: _bytes_to_evolve(task, real, generations),
+        lambda batch, _: _evolve(batch, real, generations, limits, on_progress),
+    )
 
 
 class Refined(NamedTuple):
@@ -91,21 +88,55 @@ def refine_tasks(tasks: Sequence[Task], starts: Sequence[np.ndarray], most: int)
     Raises:
         BoresightError: a task is of another sort, or has more parameters than fit.
     """
-    kinds: dict[tuple, list[int]] = {}
-    for place, task in enumerate(tasks):
+    for task in tasks:
         if task.shape.others or task.program.loss > 0.0 or (task.program.plane_dropped == POINT).any():
             raise BoresightError("the card refines plain squares of ranges and offsets only")
         if not refining_threads(task.shape):
             raise BoresightError(f"{task.shape.parameters} free parameters are more than the card can refine")
+    return _in_batches(
+        tasks,
+        np.float64,
+        _bytes_to_refine,
+        lambda batch, places: _refine(batch, np.array([starts[p] for p in places]), most),
+    )
+
+
+def _in_batches(
+    tasks: Sequence[Task],
+    real: type[np.floating],
+    size: Callable[[Task], int],
+    run: Callable[[Batch, list[int]], Sequence[Ended]],
+) -> list[Ended]:
+    """Returns what became of tasks, in their order: those of one kind go together, as many as a launch may take.
+
+    Args:
+        tasks: of any kinds.
+        real: precision.
+        size: what a task takes on the card [bytes].
+        run: of a batch and the places of its tasks.
+    """
+    kinds: dict[tuple, list[int]] = {}
+    for place, task in enumerate(tasks):
         kinds.setdefault(task.kind, []).append(place)
-    found: dict[int, Refined] = {}
+    found: dict[int, Ended] = {}
     for places in kinds.values():
-        together = _together(tasks[places[0]], np.float64, 0)
+        together = max(1, _MEMORY_BYTES // size(tasks[places[0]]))
         for first in range(0, len(places), together):
             chosen = places[first : first + together]
-            batch = batch_of([tasks[place] for place in chosen], np.float64)
-            found.update(zip(chosen, _refine(batch, np.array([starts[p] for p in chosen]), most), strict=True))
+            found.update(zip(chosen, run(batch_of([tasks[place] for place in chosen], real), chosen), strict=True))
     return [found[place] for place in range(len(tasks))]
+
+
+def _bytes_of_rows(task: Task, real: type[np.floating]) -> int:
+    return len(task.rows.reading) * (2 * task.shape.joints + 2) * np.dtype(real).itemsize
+
+
+def _bytes_to_evolve(task: Task, real: type[np.floating], generations: int) -> int:
+    return _bytes_of_rows(task, real) + 2 * task.shape.shared_bytes(real) + 16 * generations
+
+
+def _bytes_to_refine(task: Task) -> int:
+    return _bytes_of_rows(task, np.float64) + 16 * (task.shape.parameters + 1) ** 2
 
 
 def _refine(batch: Batch, starts: np.ndarray, most: int) -> list[Refined]:
@@ -114,23 +145,10 @@ def _refine(batch: Batch, starts: np.ndarray, most: int) -> list[Refined]:
     normal = cuda.device_array((runs, shape.parameters + 1, shape.parameters + 1))
     factor = cuda.device_array((runs, shape.parameters, shape.parameters))
     refining_kernel(shape)[runs, refining_threads(shape)](
-        _on_card(batch.program), _on_card(batch.rows), x, cost, steps, most, normal, factor
+        on_card(batch.program), on_card(batch.rows), x, cost, steps, most, normal, factor
     )
     ends = zip(x.copy_to_host(), cost.copy_to_host().tolist(), steps.copy_to_host().tolist(), strict=True)
     return [Refined(*end) for end in ends]
-
-
-def _on_card(arrays):
-    """Returns a named tuple of arrays with its arrays on the card."""
-    return type(arrays)(*(cuda.to_device(array) for array in arrays))
-
-
-def _together(task: Task, real: type[np.floating], generations: int) -> int:
-    """Returns how many tasks like this fit in a launch."""
-    shape, size = task.shape, np.dtype(real).itemsize
-    rows = len(task.rows.reading) * (2 * shape.joints + 2) * size
-    each = rows + 2 * (shape.parameters + 1) * shape.members * size + 16 * generations
-    return int(max(1, _MEMORY_BYTES // each))
 
 
 def _evolve(
@@ -141,28 +159,15 @@ def _evolve(
     on_progress: Callable[[int, float], None] | None,
 ) -> list[Run]:
     shape, runs = batch.shape, len(batch.keys)
-    kernel = evolving_kernel(shape, np.dtype(real).name)
-    program, rows = _on_card(batch.program), _on_card(batch.rows)
-    lower, upper, keys = (cuda.to_device(a) for a in (batch.breeding.lower, batch.breeding.upper, batch.keys))
-    breeding = batch.breeding
-    strategy = (float(breeding.pull), float(breeding.scale), float(breeding.spread), float(breeding.crossover))
-    members, trials = (cuda.device_array((runs, shape.parameters * shape.members), real) for _ in range(2))
-    costs, trial_costs = (cuda.device_array((runs, shape.members), real) for _ in range(2))
-    leaders = cuda.device_array((runs, shape.elite), np.int32)
-    stale, reference = cuda.to_device(np.zeros(runs, np.int64)), cuda.to_device(np.zeros(runs))
-    done = cuda.device_array(runs, np.int64)
+    launch = Launch(batch, real, limits)
     stretch = int(max(1, _STRETCH_EVALUATIONS / (runs * shape.members * batch.rows.reading.shape[1])))
     stretches: list[np.ndarray] = []
     counts: list[np.ndarray] = []
     first = 0
     while first <= generations:
-        history = cuda.device_array((runs, min(stretch, generations + 1 - first), 2), np.float64)
-        kernel[runs, shape.threads, 0, shape.shared_bytes(real) if shape.in_shared(real) else 0](
-            program, rows, lower, upper, strategy, bool(breeding.from_current), bool(breeding.downhill), keys, first,
-            (float(limits[0]), int(limits[1]), float(limits[2])), members, costs, stale, reference, done, history,
-            trials, trial_costs, leaders,
-        )  # fmt: skip
-        counts.append(done.copy_to_host())
+        history = launch.history(min(stretch, generations + 1 - first))
+        launch.advance(first, history)
+        counts.append(launch.done.copy_to_host())
         stretches.append(history.copy_to_host())
         first += history.shape[1]
         ran = counts[-1] > 0
@@ -171,8 +176,8 @@ def _evolve(
             on_progress(min(first - 1, generations), float(lowest.min()))
         if not (counts[-1] == history.shape[1]).any():
             break
-    populations = members.copy_to_host().reshape(runs, shape.parameters, shape.members).astype(float)
-    priced, still = costs.copy_to_host().astype(float), stale.copy_to_host()
+    populations = launch.members.copy_to_host().reshape(runs, shape.parameters, shape.members).astype(float)
+    priced, still = launch.costs.copy_to_host().astype(float), launch.stale.copy_to_host()
     return [
         Run(
             np.ascontiguousarray(populations[run].T),
