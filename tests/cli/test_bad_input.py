@@ -96,7 +96,7 @@ def test_binary_readings_are_refused(refused, one_plane, content):
 def test_readings_of_two_gigabytes_are_refused_unread(refused, one_plane):
     with open(one_plane.folder / "observations.csv", "wb") as file:
         file.truncate(2 * 2**30)
-    assert "the file has 2,048 MiB; expected a CSV file of at most 512 MiB" in refused()
+    assert "the file has 2,048 MiB; expected a CSV or Parquet file of at most 512 MiB" in refused()
 
 
 def test_exact_copies_are_warned_of(boresight, one_plane):

@@ -47,7 +47,7 @@ PINNED = [
         ("observations: observations.csv", "observations: observation.csv"),
         [
             "campaign.yaml, line 5: observations: observation.csv: there is no such file "
-            "(did you mean observations.csv?); expected a CSV file"
+            "(did you mean observations.csv?); expected a CSV or Parquet file"
         ],
     ),
     (

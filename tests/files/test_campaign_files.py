@@ -125,7 +125,7 @@ def test_a_missing_file_names_the_nearest_one(folder, campaign_with):
     folder.write(campaign=campaign_with(("observations.csv", "observation.csv")))
     assert folder.problem() == (
         "campaign.yaml, line 5: observations: observation.csv: there is no such file "
-        "(did you mean observations.csv?); expected a CSV file"
+        "(did you mean observations.csv?); expected a CSV or Parquet file"
     )
 
 

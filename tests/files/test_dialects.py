@@ -9,6 +9,7 @@ from boresight.errors import InputError
 from boresight.files import read_observations
 from boresight.files.dialects import in_house_words
 from boresight.files.joint_logs import paired
+from boresight.files.sheets import csv_text, sheet_of
 from boresight.files.sources import Source
 from boresight.geometry import Frame
 from boresight.sensing import Cell, Position
@@ -34,8 +35,8 @@ P2,400,500,600,0.03,0.01,1,0,0,0,21.5,40,2024-05-01 12:00:02
 """
 
 
-def source(text, name="measured.csv"):
-    return Source(None, name, text.encode())
+def sheet(text, name="measured.csv"):
+    return sheet_of(Source(None, name, text.encode()))
 
 
 @pytest.fixture
@@ -50,7 +51,7 @@ def read(tmp_path, monkeypatch):
 
 
 def table(ours):
-    header, *rows = [line.split(",") for line in ours.content.decode().splitlines() if line]
+    header, *rows = [cells for _, cells in ours.rows]
     return {name: [row[k] for row in rows] for k, name in enumerate(header)}
 
 
@@ -63,7 +64,7 @@ def test_figarohs_file_is_read_where_observations_are(read):
 
 
 def test_figarohs_angles_are_roll_pitch_and_yaw_about_fixed_axes():
-    ours, _ = in_house_words(source(FIGAROH), CELL.arm.joints, Units())
+    ours, _ = in_house_words(sheet(FIGAROH), CELL.arm.joints, Units())
     columns = table(ours)
     ours_xyzw = np.array([[float(columns[q][k]) for q in ("qx", "qy", "qz", "qw")] for k in range(2)])
     theirs = Rotation.from_euler("xyz", [[0.4, -0.5, 0.6], [0.1, 0.2, 0.3]])  # lower case: fixed axes
@@ -80,15 +81,15 @@ def test_figarohs_file_is_in_metres_and_radians_whatever_the_campaigns_units(rea
 def test_one_of_several_markers_is_chosen():
     text = "x1,y1,z1,x2,y2,z2,shoulder_pan_joint,elbow_joint\n1,2,3,4,5,6,0,0\n"
     with pytest.raises(InputError) as caught:
-        in_house_words(source(text), CELL.arm.joints, Units())
+        in_house_words(sheet(text), CELL.arm.joints, Units())
     assert str(caught.value) == (
         "measured.csv: the file holds the markers 1, 2; choose one: boresight import FILE --marker 1"
     )
-    ours, translation = in_house_words(source(text), CELL.arm.joints, Units(), marker=2)
+    ours, translation = in_house_words(sheet(text), CELL.arm.joints, Units(), marker=2)
     assert table(ours)["x"] == ["4"]
     assert translation.left_out == ["x1", "y1", "z1"]
     with pytest.raises(InputError, match="there is no marker 3; the file holds 1, 2"):
-        in_house_words(source(text), CELL.arm.joints, Units(), marker=3)
+        in_house_words(sheet(text), CELL.arm.joints, Units(), marker=3)
 
 
 def test_what_is_wrong_with_a_row_is_told_of_the_users_line(read):
@@ -108,9 +109,9 @@ def test_a_coordinate_that_was_not_measured_is_told(read):
 def test_joints_that_look_like_markers_are_joints(tmp_path):
     arm = Arm("axes", (Joint("x1", "prismatic", limits=(0.0, 1.0)), Joint("y1", "prismatic", limits=(0.0, 1.0))))
     text = "x1,y1,x,y,z\n0.1,0.2,0.3,0.4,0.5\n"
-    ours, translation = in_house_words(source(text), arm.joints, Units())
+    ours, translation = in_house_words(sheet(text), arm.joints, Units())
     assert translation is None
-    assert ours.content.decode() == text
+    assert csv_text(ours.rows) == text
 
 
 def test_leicas_export_with_joints_beside_is_read_where_observations_are(read):
@@ -138,28 +139,28 @@ def test_a_leica_export_alone_has_no_joints(read):
 
 
 def leica():
-    return in_house_words(source(LEICA), (), Units())[0]
+    return in_house_words(sheet(LEICA), (), Units())[0]
 
 
 def test_joints_of_another_file_are_paired_row_by_row():
-    found = paired(leica(), source("a,b\n0.1,0.2\n0.3,0.4\n", "joints.csv"))
-    columns = table(found.source)
+    found = paired(leica(), sheet("a,b\n0.1,0.2\n0.3,0.4\n", "joints.csv"))
+    columns = table(found.sheet)
     assert (columns["a"], columns["b"]) == (["0.1", "0.3"], ["0.2", "0.4"])
     assert [float(x) for x in columns["x"]] == pytest.approx([0.1005, 0.4])
-    assert (found.count, found.left_out, found.by_time) == (2, (), False)
+    assert (found.left_out, found.by_time) == ((), False)
 
 
 def test_joints_of_another_file_are_paired_by_time():
     """The log is in seconds since 1970, the tracker writes dates: 12:00:00.5 on 2024-05-01 is 1714564800.5."""
     log = "time,a\n" + "".join(f"{1714564800.0 + 0.1 * k!r},{0.5 * k}\n" for k in range(15))
-    found = paired(leica(), source(log, "joints.csv"))
-    assert table(found.source)["a"] == ["2.5"]
-    assert (found.count, found.left_out, found.by_time) == (1, (3,), True)
+    found = paired(leica(), sheet(log, "joints.csv"))
+    assert table(found.sheet)["a"] == ["2.5"]
+    assert (found.left_out, found.by_time) == ((3,), True)
 
 
 def test_rows_that_do_not_match_are_told():
     with pytest.raises(InputError) as caught:
-        paired(leica(), source("a\n0.1\n", "joints.csv"))
+        paired(leica(), sheet("a\n0.1\n", "joints.csv"))
     assert str(caught.value) == (
         "joints.csv: 1 rows for 2 measurements of measured.csv; expected a row each, or a column time in both files"
     )
@@ -167,14 +168,14 @@ def test_rows_that_do_not_match_are_told():
 
 def test_times_that_are_none_are_told():
     with pytest.raises(InputError, match=r"joints\.csv, line 3: got the time 'noon'; expected seconds or 2024-05-01"):
-        paired(leica(), source("time,a\n1,2\nnoon,2\n", "joints.csv"))
+        paired(leica(), sheet("time,a\n1,2\nnoon,2\n", "joints.csv"))
 
 
 def test_joints_that_are_not_known_at_any_time_are_told():
     with pytest.raises(InputError, match="the joints are not known at any of the times"):
-        paired(leica(), source("time,a\n1,2\n2,2\n", "joints.csv"))
+        paired(leica(), sheet("time,a\n1,2\n2,2\n", "joints.csv"))
 
 
 def test_a_joint_that_the_file_lacks_is_told():
     with pytest.raises(InputError, match="there is no column for joint c; the columns are 'a', 'b'"):
-        paired(leica(), source("a,b\n0.1,0.2\n0.3,0.4\n", "joints.csv"), ["a", "c"])
+        paired(leica(), sheet("a,b\n0.1,0.2\n0.3,0.4\n", "joints.csv"), ["a", "c"])

@@ -6,6 +6,8 @@ import os
 import numpy as np
 import pytest
 
+from boresight.files import observations
+
 HEADER = "j1,j2,range\n"
 
 
@@ -193,7 +195,7 @@ def test_a_sparse_file_of_two_gigabytes_is_refused_by_its_size(folder):
     os.truncate("observations.csv", 2 * 2**30)
     assert folder.problem() == (
         "campaign.yaml, line 5: observations: observations.csv: the file has 2,048 MiB; "
-        "expected a CSV file of at most 512 MiB: thin it or split it"
+        "expected a CSV or Parquet file of at most 512 MiB: thin it or split it"
     )
 
 
@@ -239,3 +241,20 @@ def test_a_file_full_of_faults_is_refused_without_delay(folder, two_targets):
     assert problems[-1] == "and 19980 more"
     header = ",".join(f"j{i}" for i in range(20_000))
     assert len(folder.write(observations=header + "\n").problems()) == 21
+
+
+def test_a_file_that_is_written_to_while_it_is_read_is_refused(folder, monkeypatch):
+    """A recording that still goes on: what was read of it is not what its digest says."""
+    read = observations.csv_sheet
+
+    def writing(file, name):
+        sheet = read(file, name)
+        with open(file.name, "a") as again:
+            again.write("0.2,0.3,0.4\n")
+        return sheet
+
+    monkeypatch.setattr(observations, "csv_sheet", writing)
+    assert folder.write(observations=f"{HEADER}0.1,0.2,0.3\n").problem() == (
+        "campaign.yaml, line 5: observations: observations.csv: it was written to while it was read; try again when it "
+        "is complete"
+    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import builtins
 import shutil
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -105,3 +106,49 @@ def test_without_pyarrow_it_says_what_to_install(folder, monkeypatch):
     monkeypatch.setattr(builtins, "__import__", without)
     with pytest.raises(InputError, match=r"boresight\[parquet\]"):
         load(folder)
+
+
+def test_its_first_bytes_tell_it_whatever_it_is_called(folder):
+    campaign = folder / "campaign.yaml"
+    campaign.write_text(campaign.read_text().replace("rows.parquet", "rows.dat"))
+    pq.write_table(table(), folder / "rows.dat")
+    assert len(load(folder).readings) == table().num_rows
+
+
+def test_large_words_named_by_many_rows_take_no_memory(folder):
+    """Half a MiB, named by every row: as CSV it would be 16 GiB."""
+    rows = 32_768
+    joints = {name: np.full(rows, 0.5) for name in table().column_names if name != "target"}
+    words = pa.DictionaryArray.from_arrays(pa.array(np.zeros(rows, np.int32)), pa.array(["x" * 2**19]))
+    same = pa.table({**joints, "target": words})
+    pq.write_table(same, folder / "rows.parquet")
+    tracemalloc.start()
+    try:
+        with pytest.raises(InputError, match="there is no target 'xxx"):
+            load(folder)
+        assert tracemalloc.get_traced_memory()[1] < 200 * 2**20
+    finally:
+        tracemalloc.stop()
+
+
+def test_many_rows_that_pack_to_nothing_are_refused(folder, monkeypatch):
+    monkeypatch.setattr("boresight.files.observations.LIMIT_MIB", 1)
+    same = pa.table({name: np.full(200_000, 0.5) for name in table().column_names})
+    with pytest.raises(InputError, match="at most 1 MiB"):
+        load(folder, same)
+    assert (folder / "rows.parquet").stat().st_size < 2**16
+
+
+def test_a_cell_is_a_cell_whatever_is_written_in_it(folder):
+    """In CSV a hash begins a comment; here it is a name's own."""
+    rows = table()
+    found = load(folder, rows.append_column("session", pa.array(['#1, "a"\nb'] * rows.num_rows)))
+    assert set(found.readings.session) == {'#1, "a"\nb'}
+
+
+@pytest.mark.parametrize("kind", [pa.float32(), pa.decimal128(12, 6)])
+def test_numbers_of_other_types_are_read_as_they_are_written(folder, kind):
+    rows = table()
+    short = pa.array([round(value, 3) for value in rows["range"].to_pylist()]).cast(kind)
+    found = load(folder, rows.set_column(rows.column_names.index("range"), "range", short))
+    np.testing.assert_array_equal(found.readings.values[:, 0], np.round(rows["range"].to_numpy(), 3))

@@ -69,7 +69,8 @@ def test_the_free_optimum_is_minpacks(count):
     expected = optimize.least_squares(residual, start, jac=jacobian, method="lm", xtol=1e-12, ftol=1e-14, gtol=1e-12)
     free = np.full(4, np.inf)
     found = least_squares(residual, jacobian, start, scale=np.ones(4), lower=-free, upper=free)
-    np.testing.assert_allclose(found.best, expected.x, rtol=1e-9)
+    # As near as the rounding of a cost that is flat there lets any search come; how near differs between machines.
+    np.testing.assert_allclose(found.best, expected.x, rtol=1e-7)
     assert found.cost == pytest.approx(2.0 * expected.cost, rel=1e-12)
     assert found.evaluations <= expected.nfev + 2
 

@@ -29,6 +29,10 @@ LOWER = 1e-4
 """One optimum is lower than another where its cost is lower by more than this share."""
 
 Progress = Callable[[int, float], None]
+Step = Callable[[str], None]
+
+EVOLUTION, LEAST_SQUARES = "evolution", "least squares"
+"""What a solver does, in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +96,11 @@ class Solution:
 
 
 def solve(
-    problem: Problem, solver: Solver, on_progress: Progress | None = None, evolved: Evolved | None = None
+    problem: Problem,
+    solver: Solver,
+    on_progress: Progress | None = None,
+    evolved: Evolved | None = None,
+    on_step: Step | None = None,
 ) -> Solution:
     """Returns the best fit that the solver finds; of two optima, the lower.
 
@@ -104,12 +112,18 @@ def solve(
         solver: how.
         on_progress: called now and then with generations completed and the best cost, as if of all rows.
         evolved: the evolution, where it has run already.
+        on_step: called with what is done next.
     """
+    say = on_step or (lambda what: None)
     if solver.name == "least-squares":
+        say(LEAST_SQUARES)
         direct = fit(problem, np.zeros(len(problem.names)))
         stage = _stage("least squares from the nominal model", direct, direct)
         return Solution(direct, (stage,), np.empty((0, 2)), stage, True)
-    evolved = evolved or _evolve(problem, solver, on_progress)
+    if evolved is None:
+        say(EVOLUTION)
+        evolved = _evolve(problem, solver, on_progress)
+    say(LEAST_SQUARES)
     if solver.name == "evolution":
         found = fit(problem, evolved.best, move=False)
         return Solution(found, (_evolution(found, evolved),), evolved.history, None, None)

@@ -5,15 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
 from boresight import __version__
 from boresight.calibration import Solver, calibrate
+from boresight.calibration.solve import EVOLUTION
 from boresight.cli.codes import LARGEST_SEED, REJECTED
 from boresight.cli.compiling import told_of_compiling
 from boresight.cli.consoles import PipedConsole, print_plain
 from boresight.cli.devices import chosen_device
+from boresight.cli.doing import Doing
 from boresight.errors import InputError
 from boresight.files import load_campaign
 from boresight.kernels.evolving import evolve_generations
@@ -45,31 +44,26 @@ def run_calibrate(
     """Returns the exit code of a calibration, its result written and shown."""
     settings = _solver(solver, strategy, population, generations, seed)
     settings = replace(settings, device=chosen_device(device, precision, evolves=solver != "least-squares"))
-    campaign = load_campaign(path, need_readings=True)
-    folder = output or Path(f"{campaign.name}-result")
-    check_writable(folder)
-    errors = Console(stderr=True)
-    evolves_here = (solver != "least-squares" and not settings.device.on_card) or bool(campaign.unknown)
-    linearises = is_compiled(campaign.cell)
-    told_of_compiling(*([linearise_rows] if linearises else []), *([evolve_generations] if evolves_here else []))
-    with Progress(
-        TextColumn("evolution"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TextColumn("generations, best {task.fields[best]} mm RMS"),
-        TimeRemainingColumn(),
-        console=errors,
-        transient=True,
-        disable=as_json or not errors.is_terminal,
-    ) as progress:
-        task = progress.add_task("evolution", total=generations, best="?", visible=solver != "least-squares")
+    with Doing(silent=as_json) as doing:
+        doing.begin(f"reading {path.name}")
+        campaign = load_campaign(path, need_readings=True)
+        folder = output or Path(f"{campaign.name}-result")
+        check_writable(folder)
+        evolves_here = (solver != "least-squares" and not settings.device.on_card) or bool(campaign.unknown)
+        linearises = is_compiled(campaign.cell)
+        told_of_compiling(*([linearise_rows] if linearises else []), *([evolve_generations] if evolves_here else []))
         values = campaign.readings.count if campaign.readings else 1
 
-        def show(generation: int, cost: float) -> None:
-            progress.update(task, completed=generation, best=f"{1e3 * (cost / values) ** 0.5:.3f}")
+        def step(what: str) -> None:
+            doing.begin(what, total=generations if what == EVOLUTION else None)
 
-        result = calibrate(campaign, settings, show)
-    written = write_result(result, folder, __version__)
+        def show(generation: int, cost: float) -> None:
+            best = f"{1e3 * (cost / values) ** 0.5:.3f} mm RMS"
+            doing.advance(generation, f"{generation}/{generations} generations, best {best}")
+
+        result = calibrate(campaign, settings, show, step)
+        doing.begin(f"writing {folder.name}")
+        written = write_result(result, folder, __version__)
     if as_json:
         print_plain(result_json(result, __version__))
     else:

@@ -18,8 +18,8 @@ from boresight.files.joint_logs import paired
 from boresight.files.observations import LIMIT_MIB
 from boresight.files.recorded import Recorded, began, read_recorded, rows_csv
 from boresight.files.robots import load_robot
+from boresight.files.sheets import csv_text, sheet_of
 from boresight.files.sources import read_source
-from boresight.files.tables import rows_of_cells
 from boresight.files.topics import Choice
 from boresight.files.writing import write_atomically
 from boresight.units import Units, in_millimetres
@@ -107,20 +107,19 @@ def _table(
     name, mend = str(path), "thin it or split it"
     arm = load_robot(robot) if robot else None
     source = read_source(path, name, kind="a CSV file or a ROS bag", limit_mib=LIMIT_MIB, mend=mend)
-    ours, translation = in_house_words(source, arm.joints if arm else (), Units(), marker)
+    ours, translation = in_house_words(sheet_of(source), arm.joints if arm else (), Units(), marker)
     if translation is None:
         raise InputError(
             f"{name}: the columns are neither FIGAROH's (x1, y1, z1, joints) nor Leica's (X [mm], Y [mm], Z [mm]), and "
             "this is no ROS bag; a file with the columns of docs/files.md needs no import"
         )
     notes, warnings = [described(translation)], []
-    count = sum(1 for _ in rows_of_cells(ours)) - 1
     if joint_file is not None:
         log = read_source(
             joint_file, str(joint_file), kind="a CSV file of joint readings", limit_mib=LIMIT_MIB, mend=mend
         )
-        pairs = paired(ours, log, arm.joint_names if arm else None)
-        ours, count = pairs.source, pairs.count
+        pairs = paired(ours, sheet_of(log), arm.joint_names if arm else None)
+        ours = pairs.sheet
         notes.append(f"Joints and measurements were paired {'by time' if pairs.by_time else 'row by row'}.")
         lines = ", ".join(map(str, pairs.left_out[:6])) + (" and others" if len(pairs.left_out) > 6 else "")
         if pairs.left_out:
@@ -130,8 +129,9 @@ def _table(
             f"{name}: a tracker's export has no joints; name their file: --joint-file joints.csv, a column a joint, "
             "and a row for each of its rows or a column time"
         )
-    summary: dict[str, object] = {"source": name, "dialect": translation.dialect, "rows": count}
-    return summary | {"notes": notes, "warnings": warnings}, ours.content.decode()
+    rows = list(ours.rows)
+    summary: dict[str, object] = {"source": name, "dialect": translation.dialect, "rows": len(rows) - 1}
+    return summary | {"notes": notes, "warnings": warnings}, csv_text(rows)
 
 
 def _show(console: Console, summary: dict) -> None:

@@ -9,6 +9,7 @@ from boresight.calibration.inspect import inspect
 from boresight.cli.codes import LARGEST_SEED
 from boresight.cli.compiling import told_of_compiling
 from boresight.cli.consoles import PipedConsole, print_plain
+from boresight.cli.doing import Doing
 from boresight.errors import InputError
 from boresight.files import load_campaign
 from boresight.kernels.linearising import linearise_rows
@@ -28,9 +29,12 @@ def run_inspect(path: Path, *, rows: int | None, seed: int, as_json: bool) -> in
         problems.append(f"--seed: expected a whole number from 0 to {LARGEST_SEED}, got {seed}")
     if problems:
         raise InputError(problems)
-    campaign = load_campaign(path)
-    told_of_compiling(*([linearise_rows] if is_compiled(campaign.cell) else []))
-    found = inspect(campaign, rows=rows, seed=seed)
+    with Doing(silent=as_json) as doing:
+        doing.begin(f"reading {path.name}")
+        campaign = load_campaign(path)
+        told_of_compiling(*([linearise_rows] if is_compiled(campaign.cell) else []))
+        doing.begin("asking what the rows can know")
+        found = inspect(campaign, rows=rows, seed=seed)
     if as_json:
         print_plain(inspection_json(found, __version__))
     else:

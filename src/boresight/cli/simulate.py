@@ -9,6 +9,7 @@ from rich.markup import escape
 from boresight.calibration.simulate import simulate
 from boresight.cli.codes import LARGEST_SEED
 from boresight.cli.consoles import PipedConsole
+from boresight.cli.doing import Doing
 from boresight.errors import InputError
 from boresight.files import load_campaign
 from boresight.files.rehearsals import write_rehearsal
@@ -33,10 +34,14 @@ def run_simulate(
     ]
     if problems:
         raise InputError(problems)
-    campaign = load_campaign(path)
-    folder = output or Path(f"{campaign.name}-simulated")
-    rehearsal = simulate(campaign, rows=rows, validation_rows=validation_rows, size=size, seed=seed)
-    written = write_rehearsal(campaign, rehearsal, path, folder)
+    with Doing() as doing:
+        doing.begin(f"reading {path.name}")
+        campaign = load_campaign(path)
+        folder = output or Path(f"{campaign.name}-simulated")
+        doing.begin("drawing configurations and their readings")
+        rehearsal = simulate(campaign, rows=rows, validation_rows=validation_rows, size=size, seed=seed)
+        doing.begin(f"writing {folder.name}")
+        written = write_rehearsal(campaign, rehearsal, path, folder)
     console = PipedConsole()
     console.print(
         f"Simulated {len(rehearsal.readings)} calibration and {len(rehearsal.validation)} validation rows of "

@@ -12,6 +12,7 @@ from boresight.files.observations import Observations, observations_of
 from boresight.files.problems import printable
 from boresight.files.recorded import Recorded, read_recorded, rows_csv
 from boresight.files.schemas import DataEntry
+from boresight.files.sheets import sheet_of
 from boresight.files.sources import Source
 from boresight.files.topics import Choice
 from boresight.recordings import Rules
@@ -48,8 +49,8 @@ def read_bag_observations(path: Path, *, cell: Cell, entry: DataEntry, named_by:
         recorded = read_recorded(path, entry.name, choice_of(entry), cell.arm.joint_names, kind)
     except InputError as error:
         raise InputError([f"{named_by}{problem}" for problem in error.problems]) from None
-    source = Source(path, entry.name, rows_csv(recorded).encode())
-    found = observations_of(source, cell, Units())
+    rows = sheet_of(Source(path, entry.name, rows_csv(recorded).encode()))
+    found = observations_of(rows, cell, Units())
     warnings = (*recorded.bag.losses, *_scatter(recorded, cell), *found.warnings)
     notes = [f"{entry.name}: {remark}" for remark in remarks_of(recorded)]
     notes += [

@@ -9,18 +9,16 @@ Leica: `X [mm], Y [mm], Z [mm], U(95) [mm], Q0, Q1, Q2, Q3, Temperature [C], Tim
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 
 from boresight.arm import Joint
 from boresight.errors import InputError
 from boresight.files.problems import Problems, listed, printable
-from boresight.files.sources import Source
-from boresight.files.tables import rows_of_cells
+from boresight.files.sheets import Row, Sheet
 from boresight.units import Units
 
 POSITION, QUATERNION = ("x", "y", "z"), ("qw", "qx", "qy", "qz")
@@ -85,31 +83,42 @@ def translation_of(
 
 
 def in_house_words(
-    source: Source, joints: Sequence[Joint], units: Units, marker: int | None = None
-) -> tuple[Source, Translation | None]:
-    """Returns a file's content in the house's words, and what became of its columns; None where nothing did."""
-    for _, names in rows_of_cells(source):
-        header = [name.strip() for name in names]
-        try:
-            translation = translation_of(header, joints, units, marker)
-        except InputError as error:
-            raise InputError(printable(f"{source.name}: {error}")) from None
-        return (source, None) if translation is None else (_translated(source, translation, len(header)), translation)
-    return source, None
+    sheet: Sheet, joints: Sequence[Joint], units: Units, marker: int | None = None
+) -> tuple[Sheet, Translation | None]:
+    """Returns a file's rows in the house's words, and what becomes of its columns; None where nothing does.
+
+    Args:
+        sheet: the rows; they are gone through by going through what is returned.
+        joints: the arm's.
+        units: to translate to.
+        marker: which of FIGAROH's markers; the only one by default.
+
+    Raises:
+        InputError: the file cannot be read, there are several markers and none was chosen, or not this one.
+    """
+    first = next(sheet.rows, None)
+    if first is None:
+        return sheet, None
+    try:
+        translation = translation_of([name.strip() for name in first[1]], joints, units, marker)
+    except InputError as error:
+        raise InputError(printable(f"{sheet.name}: {error}")) from None
+    if translation is None:
+        return Sheet(sheet.name, chain([first], sheet.rows)), None
+    return Sheet(sheet.name, _translated(sheet, first, translation)), translation
 
 
-def _translated(source: Source, translation: Translation, width: int) -> Source:
-    text, line, problems = io.StringIO(), 1, Problems()
-    writer = csv.writer(text, lineterminator="\n")
-    for k, (ends, cells) in enumerate(rows_of_cells(source)):
-        text.write("\n" * (ends - line))
-        if len(cells) == width:
-            writer.writerow(translation.row(cells) if k else translation.header)
-            line = ends + 1
+def _translated(sheet: Sheet, header: Row, translation: Translation) -> Iterator[Row]:
+    """Yields rows in the house's words; those of another length are told when all others have been seen."""
+    line, names = header
+    yield line, translation.header
+    problems = Problems()
+    for line, cells in sheet.rows:
+        if len(cells) == len(names):
+            yield line, translation.row(cells)
         else:
-            problems.add(f"{source.name}, line {ends}: {len(cells)} cells; expected {width}, as in the header")
+            problems.add(f"{sheet.name}, line {line}: {len(cells)} cells; expected {len(names)}, as in the header")
     problems.raise_if_any()
-    return Source(source.path, source.name, text.getvalue().encode())
 
 
 def _figaroh(

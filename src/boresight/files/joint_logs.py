@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -13,8 +11,7 @@ from jaxtyping import Float
 
 from boresight.errors import InputError
 from boresight.files.problems import Problems, listed, printable, shown
-from boresight.files.sources import Source
-from boresight.files.tables import rows_of_cells
+from boresight.files.sheets import Sheet
 from boresight.recordings import Signal, Trajectory
 
 _FORMATS = ("%m/%d/%Y %H:%M:%S", "%m/%d/%Y %I:%M:%S %p", "%d.%m.%Y %H:%M:%S", "%Y/%m/%d %H:%M:%S")
@@ -25,19 +22,17 @@ class Paired:
     """Measurements with joints.
 
     Attributes:
-        source: the text of an observations.csv.
-        count: its rows.
+        sheet: the rows of an observations.csv.
         left_out: measurements at times at which the joints are not known, by line of their file.
         by_time: whether they were paired by time, not row by row.
     """
 
-    source: Source
-    count: int
+    sheet: Sheet
     left_out: tuple[int, ...]
     by_time: bool
 
 
-def paired(measured: Source, joints: Source, wanted: Sequence[str] | None = None) -> Paired:
+def paired(measured: Sheet, joints: Sheet, wanted: Sequence[str] | None = None) -> Paired:
     """Returns measurements with the joints of another file beside them, which is in radians and metres.
 
     Where both files have a column `time`, the joints are interpolated at the times of the measurements; otherwise
@@ -76,24 +71,23 @@ def paired(measured: Source, joints: Source, wanted: Sequence[str] | None = None
     known = np.isfinite(found).all(axis=1)
     if not known.any():
         raise InputError(f"{joints.name}: the joints are not known at any of the times of {measured.name}")
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*names, *header])
-    for row, position in zip([row for row, good in zip(rows, known, strict=True) if good], found[known], strict=True):
-        writer.writerow([*(f"{number:.10g}" for number in position), *row])
+    kept = [row for row, good in zip(rows, known, strict=True) if good]
+    together = [
+        [*(f"{number:.10g}" for number in position), *row] for row, position in zip(kept, found[known], strict=True)
+    ]
     left_out = tuple(line for line, good in zip(lines, known, strict=True) if not good)
-    return Paired(Source(measured.path, measured.name, text.getvalue().encode()), int(known.sum()), left_out, by_time)
+    return Paired(Sheet(measured.name, enumerate([[*names, *header], *together], 1)), left_out, by_time)
 
 
-def _table(source: Source) -> tuple[list[str], list[list[str]], list[int]]:
+def _table(sheet: Sheet) -> tuple[list[str], list[list[str]], list[int]]:
     """Returns the header, the rows of its length and their lines."""
-    found = list(rows_of_cells(source))
+    found = list(sheet.rows)
     if len(found) < 2:
-        raise InputError(f"{source.name}: there are no rows in it; expected column names and then rows")
+        raise InputError(f"{sheet.name}: there are no rows in it; expected column names and then rows")
     header, problems = [name.strip() for name in found[0][1]], Problems()
     for line, cells in found[1:]:
         if len(cells) != len(header):
-            problems.add(f"{source.name}, line {line}: {len(cells)} cells; expected {len(header)}, as in the header")
+            problems.add(f"{sheet.name}, line {line}: {len(cells)} cells; expected {len(header)}, as in the header")
     problems.raise_if_any()
     return header, [cells for _, cells in found[1:]], [line for line, _ in found[1:]]
 

@@ -12,10 +12,11 @@ from boresight.calibration.campaign import SetAside
 from boresight.errors import InputError
 from boresight.files.columns import QUATERNION, Columns
 from boresight.files.dialects import described, in_house_words
-from boresight.files.parquet import as_csv, is_parquet
+from boresight.files.parquet import is_parquet, parquet_sheet
 from boresight.files.problems import Problems, printable
 from boresight.files.schemas import LARGEST, SMALLEST
-from boresight.files.sources import Source, read_source
+from boresight.files.sheets import Sheet, csv_sheet
+from boresight.files.sources import open_source
 from boresight.files.suspicions import suspicions
 from boresight.files.tables import Table, read_table
 from boresight.geometry import quaternion_matrix
@@ -39,14 +40,14 @@ class Observations:
         readings: the rows that can be used.
         set_aside: the rows that cannot, and why.
         warnings: what looks odd, a sentence each.
-        sha256: of the file.
+        sha256: of the file; "" where it was none.
         notes: choices that were made in reading it, a sentence each.
     """
 
     readings: Readings
     set_aside: tuple[SetAside, ...]
     warnings: tuple[str, ...]
-    sha256: str
+    sha256: str = ""
     notes: tuple[str, ...] = ()
 
 
@@ -74,24 +75,25 @@ def read_observations(
         InputError: it cannot be read, or not one row of it is usable.
     """
     name = str(path) if name is None else name
-    mend = "thin it or split it"
-    packed = is_parquet(Path(path))
-    kind = "a Parquet file" if packed else "a CSV file"
-    source = read_source(Path(path), name, kind=kind, limit_mib=LIMIT_MIB, mend=mend, named_by=named_by, binary=packed)
-    sha256 = source.sha256
-    if packed:
-        source = as_csv(source, limit_mib=LIMIT_MIB, named_by=named_by)
-    ours, translation = in_house_words(source, cell.arm.joints, units)
-    found = observations_of(ours, cell, units, need_values=need_values)
+    kind, mend = "a CSV or Parquet file", "thin it or split it"
+    with open_source(Path(path), name, kind=kind, limit_mib=LIMIT_MIB, mend=mend, named_by=named_by) as source:
+        if is_parquet(source.complaint.path, source.file):
+            sheet = parquet_sheet(source, limit_mib=LIMIT_MIB)
+        elif source.is_text:
+            sheet = csv_sheet(source.file, name)
+        else:
+            raise source.complaint.not_text()
+        ours, translation = in_house_words(sheet, cell.arm.joints, units)
+        found = observations_of(ours, cell, units, need_values=need_values)
     notes = (printable(f"{name}: {described(translation)}"),) if translation else ()
-    return replace(found, sha256=sha256, notes=notes)
+    return replace(found, sha256=source.sha256, notes=notes)
 
 
-def observations_of(source: Source, cell: Cell, units: Units, *, need_values: bool = True) -> Observations:
-    """Returns the readings of a CSV file's content, in metres and radians.
+def observations_of(sheet: Sheet, cell: Cell, units: Units, *, need_values: bool = True) -> Observations:
+    """Returns the readings of a file's rows, in metres and radians.
 
     Args:
-        source: the content.
+        sheet: the rows, in the house's words.
         cell: the arm, the sensors and the targets that it is about.
         units: the units it is written in.
         need_values: whether configurations alone are an error.
@@ -100,44 +102,44 @@ def observations_of(source: Source, cell: Cell, units: Units, *, need_values: bo
         InputError: not one row of it is usable, or something in it makes no sense.
     """
     problems = Problems()
-    table = read_table(source, cell, units, problems, need_values=need_values)
+    table = read_table(sheet, cell, units, problems, need_values=need_values)
     problems.raise_if_any()
-    return _judged(table, source, cell, units)
+    return _judged(table, sheet.name, cell, units)
 
 
-def _judged(table: Table, source: Source, cell: Cell, units: Units) -> Observations:
+def _judged(table: Table, name: str, cell: Cell, units: Units) -> Observations:
     """Returns the rows that can be used as readings, and the others with their reasons."""
     columns, numbers = table.columns, table.numbers
     if not len(numbers):
-        raise InputError(f"{source.name}: there is a header but no row of readings under it")
-    _check_certainty(table, source.name)
+        raise InputError(f"{name}: there is a header but no row of readings under it")
+    _check_certainty(table, name)
     own = np.array([list(cell.sensors).index(aim.sensor) for aim in cell.aims])[table.target]
     usable, needed = table.target >= 0, [columns.needed(name, sensor) for name, sensor in cell.sensors.items()]
     problems = Problems()
-    for place, (name, sensor) in enumerate(cell.sensors.items()):
+    for place, (sensor_name, sensor) in enumerate(cell.sensors.items()):
         rows = np.flatnonzero(own == place)
         usable[rows] &= (np.abs(numbers[rows][:, needed[place]]) <= LARGEST).all(axis=1)
         if isinstance(sensor, LaserRanger):
-            usable[rows] &= ~(numbers[rows][:, list(columns.values[name])] <= 0.0).any(axis=1)
-        _check_strangers(table, rows[usable[rows]], needed[place], name, source.name, problems)
+            usable[rows] &= ~(numbers[rows][:, list(columns.values[sensor_name])] <= 0.0).any(axis=1)
+        _check_strangers(table, rows[usable[rows]], needed[place], sensor_name, name, problems)
         if isinstance(sensor, Pose) and not columns.planned:
-            _check_quaternions(table, rows[usable[rows]], columns.values[name][3:], source.name, problems)
+            _check_quaternions(table, rows[usable[rows]], columns.values[sensor_name][3:], name, problems)
     problems.raise_if_any()
     alone = _without_partner(table, cell, usable)
     set_aside = tuple(
-        SetAside(source.name, int(table.line[row]), _ALONE if alone[row] else table.reason(int(row), needed[own[row]]))
+        SetAside(name, int(table.line[row]), _ALONE if alone[row] else table.reason(int(row), needed[own[row]]))
         for row in np.flatnonzero(~usable | alone)
     )
     usable &= ~alone
     if not usable.any():
         first = set_aside[0]
         why = f"the first, on line {first.line}: {first.reason}"
-        raise InputError(printable(f"{source.name}: none of its {len(numbers)} rows can be used; {why}"))
+        raise InputError(printable(f"{name}: none of its {len(numbers)} rows can be used; {why}"))
     # One multiplication a number, so that a file in metres and radians is read to the bit.
     kept = numbers[usable] * np.array(columns.scales)
     session = None if table.session is None else table.session[usable]
     readings = _readings(kept, columns, cell, own[usable], table.target[usable], table.line[usable], session)
-    return Observations(readings, set_aside, suspicions(readings, cell, units, source.name), source.sha256)
+    return Observations(readings, set_aside, suspicions(readings, cell, units, name))
 
 
 def _readings(

@@ -1,66 +1,81 @@
-"""Parquet as the CSV that it stands for, so that both are read, refused and told of alike.
+"""Parquet as the rows of text that it stands for, so that it is read, refused and told of as CSV is.
 
 Batch by batch, and no more than a CSV file may hold. A row's line is counted as in CSV, the names on line 1.
 """
 
 from __future__ import annotations
 
-import io
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Iterator
 from pathlib import Path
+from typing import BinaryIO
 
-from boresight.errors import InputError
-from boresight.files.problems import printable
-from boresight.files.sources import Source
+from boresight.files.sheets import Row, Sheet
+from boresight.files.sources import OpenSource
 
 SUFFIXES = (".parquet", ".pq")
 
-_BATCH_ROWS = 65_536
+_MAGIC = b"PAR1"
+_BATCH_ROWS = 16_384
+_LEAST_BYTES = 2
+"""What a number and the comma behind it take in CSV."""
+
 _INSTALL = "pip install 'boresight[parquet]', or export it as CSV"
 
 
-def is_parquet(path: Path) -> bool:
-    """Returns whether a file's name says that it is Parquet."""
-    return path.suffix.lower() in SUFFIXES
+def is_parquet(path: Path, file: BinaryIO) -> bool:
+    """Returns whether a file is Parquet, or says so by its name; it stays at its beginning."""
+    beginning = file.read(len(_MAGIC))
+    file.seek(0)
+    return beginning == _MAGIC or path.suffix.lower() in SUFFIXES
 
 
-def as_csv(source: Source, *, limit_mib: int, named_by: str = "") -> Source:
-    """Returns a Parquet file's content as CSV.
+def parquet_sheet(source: OpenSource, *, limit_mib: int) -> Sheet:
+    """Returns a Parquet file's rows; going through them raises an `InputError` for what it should not be.
 
     Args:
         source: the file.
-        limit_mib: how much CSV it may come to.
-        named_by: the place that names the file, as the beginning of a sentence.
-
-    Raises:
-        InputError: it is none, is damaged, holds too much or what no CSV can, or pyarrow is missing.
+        limit_mib: how much it may come to, unpacked or as CSV.
     """
+    return Sheet(source.name, _rows(source, limit_mib))
 
-    def refused(why: str) -> InputError:
-        return InputError(printable(f"{named_by}{source.name}: {why}"))
 
+def _rows(source: OpenSource, limit_mib: int) -> Iterator[Row]:
+    refused = source.complaint.refused
     try:
         import pyarrow as pa
         import pyarrow.parquet as pq
     except ImportError:
         raise refused(f"reading Parquet needs pyarrow, which is not installed: {_INSTALL}") from None
     try:
-        file = pq.ParquetFile(pa.BufferReader(source.content), memory_map=False)
-        groups = (file.metadata.row_group(number) for number in range(file.metadata.num_row_groups))
-        size = sum(group.total_byte_size for group in groups)
+        schema = pq.read_schema(source.file)
+        strange = [f"{column.name} ({column.type})" for column in schema if not _is_plain(column.type)]
+        if strange:
+            raise refused(f"expected columns of numbers or text, got {', '.join(strange)}")
+        # A word stays one word however many rows have it: a small file could name a large one a million times.
+        words = [column.name for column in schema if _is_text(column.type)]
+        file = pq.ParquetFile(source.file, read_dictionary=words)
+        size = max(_unpacked(file.metadata), file.metadata.num_rows * len(schema) * _LEAST_BYTES)
         if size > limit_mib * 2**20:
             raise refused(
                 f"unpacked it has {size / 2**20:,.0f} MiB; expected at most {limit_mib} MiB: thin it or split it"
             )
-        schema = file.schema_arrow
-        strange = [f"{column.name} ({column.type})" for column in schema if not _is_plain(column.type)]
-        if strange:
-            raise refused(f"expected columns of numbers or text, got {', '.join(strange)}")
-        return replace(source, content=_written(file, limit_mib, refused))
+        yield 1, schema.names
+        batches = file.iter_batches(batch_size=_BATCH_ROWS, use_threads=False)
+        rows = (cells for batch in batches for cells in zip(*map(_cells, batch.columns), strict=True))
+        yield from ((line, list(cells)) for line, cells in enumerate(rows, 2))
     except (pa.ArrowException, OSError) as error:
         said = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise refused(f"this is no Parquet file, or a damaged one ({said})") from None
+
+
+def _unpacked(metadata) -> int:
+    return sum(metadata.row_group(number).total_byte_size for number in range(metadata.num_row_groups))
+
+
+def _is_text(kind) -> bool:
+    import pyarrow.types as types
+
+    return types.is_string(kind) or types.is_large_string(kind)
 
 
 def _is_plain(kind) -> bool:
@@ -69,28 +84,18 @@ def _is_plain(kind) -> bool:
 
     if types.is_dictionary(kind):
         return _is_plain(kind.value_type)
-    plain = (types.is_integer, types.is_floating, types.is_boolean, types.is_string, types.is_large_string)
-    return any(each(kind) for each in (*plain, types.is_null, types.is_temporal, types.is_decimal))
+    plain = (types.is_integer, types.is_floating, types.is_boolean, types.is_null, types.is_decimal)
+    dates = types.is_temporal(kind) and not types.is_duration(kind)
+    return dates or _is_text(kind) or any(each(kind) for each in plain)
 
 
-def _written(file, limit_mib: int, refused: Callable[[str], InputError]) -> bytes:
-    import pyarrow as pa
-    import pyarrow.csv as csv
-
-    out = io.BytesIO()
-    header = pa.table({column.name: pa.array([], pa.string()) for column in file.schema_arrow})
-    csv.write_csv(header, out, csv.WriteOptions(quoting_style="needed"))
-    for batch in file.iter_batches(batch_size=_BATCH_ROWS, use_threads=False):
-        plain = pa.table([_decoded(column) for column in batch.columns], names=batch.schema.names)
-        csv.write_csv(plain, out, csv.WriteOptions(include_header=False, quoting_style="needed"))
-        if out.tell() > limit_mib * 2**20:
-            raise refused(f"as CSV it has more than {limit_mib} MiB: thin it or split it")
-    return out.getvalue()
-
-
-def _decoded(column):
+def _cells(column) -> list[str]:
+    """Returns the cells of a batch's column as CSV has them; the same words are the same objects."""
     import pyarrow as pa
 
     if pa.types.is_dictionary(column.type):
-        column = column.dictionary_decode()
-    return column.cast(pa.float64()) if pa.types.is_float16(column.type) else column
+        words = _cells(column.dictionary)
+        return [words[place] if place is not None else "" for place in column.indices.to_pylist()]
+    if pa.types.is_float16(column.type):
+        column = column.cast(pa.float64())
+    return column.cast(pa.string()).fill_null("").to_pylist()

@@ -14,8 +14,8 @@ from boresight.errors import InputError, did_you_mean
 from boresight.files.columns import QUATERNION
 from boresight.files.problems import Problems, listed, shown
 from boresight.files.schemas import LARGEST
+from boresight.files.sheets import sheet_of
 from boresight.files.sources import Source, read_source
-from boresight.files.tables import rows_of_cells
 from boresight.geometry import quaternion_matrix
 from boresight.units import Units
 
@@ -77,7 +77,7 @@ def read_poses(path: Path | str, arm: Arm, units: Units) -> WantedPoses:
 
 def _cells(source: Source) -> tuple[list[str], list[list[str]], list[int]]:
     """Returns the header, the rows and their lines; `#` begins a comment."""
-    found = [(line, row) for line, row in rows_of_cells(source) if any(cell.strip() for cell in row)]
+    found = [(line, row) for line, row in sheet_of(source).rows if any(cell.strip() for cell in row)]
     if len(found) < 2:
         raise InputError(f"{source.name}: there are no poses in it; expected a row of column names and then poses")
     header = [name.strip() for name in found[0][1]]

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import sys
 from array import array
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from operator import itemgetter
 
@@ -16,9 +14,9 @@ from jaxtyping import Float, Int
 from boresight.errors import InputError
 from boresight.files.aiming import AimsByName
 from boresight.files.columns import KEYS, Columns, read_columns
-from boresight.files.problems import Problems, printable, shown
+from boresight.files.problems import Problems, shown
 from boresight.files.schemas import LARGEST
-from boresight.files.sources import Source
+from boresight.files.sheets import Sheet
 from boresight.sensing import Cell
 from boresight.units import Units
 
@@ -61,22 +59,21 @@ class Table:
         return "; ".join(reasons)
 
 
-def read_table(source: Source, cell: Cell, units: Units, problems: Problems, *, need_values: bool = True) -> Table:
+def read_table(sheet: Sheet, cell: Cell, units: Units, problems: Problems, *, need_values: bool = True) -> Table:
     """Returns the numbers of an observations file; they make no sense where a problem was added.
 
     Args:
-        source: the file.
+        sheet: the rows of the file.
         cell: the arm, the sensors and the targets that it is about.
         units: the units it is written in.
         problems: where faults are added.
         need_values: whether configurations alone are a fault.
     """
-    lines = rows_of_cells(source)
-    line, header = next(lines, (1, []))
+    line, header = next(sheet.rows, (1, []))
     if not header:
-        raise InputError(f"{source.name}: the file is empty; expected a row of column names and then readings")
+        raise InputError(f"{sheet.name}: the file is empty; expected a row of column names and then readings")
     names = [name.strip() for name in header]
-    columns = read_columns(names, cell, units, f"{source.name}, line {line}: ", problems, need_values=need_values)
+    columns = read_columns(names, cell, units, f"{sheet.name}, line {line}: ", problems, need_values=need_values)
     problems.raise_if_any()
     aims = AimsByName(cell, tuple(key for key in columns.keys if key != "session"))
     keys = [columns.keys[key] for key in aims.keys]
@@ -86,12 +83,12 @@ def read_table(source: Source, cell: Cell, units: Units, problems: Problems, *, 
     numbers, target, line_numbers = array("d"), array("q"), array("q")
     sessions: list[str] = []
     empty: dict[int, list[str]] = {}
-    for line, cells in lines:
+    for line, cells in sheet.rows:
         if len(cells) != columns.width:
-            problems.add(f"{source.name}, line {line}: {len(cells)} cells; expected {columns.width}, as in the header")
+            problems.add(f"{sheet.name}, line {line}: {len(cells)} cells; expected {columns.width}, as in the header")
             continue
         given = tuple([cells[key].strip() for key in keys])
-        aim = aims.place(given, f"{source.name}, line {line}: ", problems)
+        aim = aims.place(given, f"{sheet.name}, line {line}: ", problems)
         if aim < 0:
             empty.setdefault(line, []).extend(aims.empty(given))
         target.append(aim)
@@ -103,33 +100,18 @@ def read_table(source: Source, cell: Cell, units: Units, problems: Problems, *, 
                 raise ValueError
             numbers.extend(list(map(float, given_numbers)))
         except ValueError:
-            where = f"{source.name}, line {line}: "
+            where = f"{sheet.name}, line {line}: "
             numbers.extend(_cell_by_cell(given_numbers, columns, empty.setdefault(line, []), where, problems))
         line_numbers.append(line)
     count = len(line_numbers)
     return Table(
         columns,
-        np.array(numbers, dtype=float).reshape(count, len(columns.names)),
-        np.array(target, dtype=np.int64),
+        np.frombuffer(numbers, dtype=float).reshape(count, len(columns.names)),
+        np.frombuffer(target, dtype=np.int64),
         np.array(sessions, dtype=object) if session_at is not None else None,
-        np.array(line_numbers, dtype=np.int64),
+        np.frombuffer(line_numbers, dtype=np.int64),
         empty,
     )
-
-
-def rows_of_cells(source: Source) -> Iterator[tuple[int, list[str]]]:
-    """Yields (line, cells) of every row that is not blank; `#` begins a comment."""
-    text = io.TextIOWrapper(io.BytesIO(source.content), encoding="utf-8-sig", newline=None)
-    reader = csv.reader((line.partition("#")[0] for line in text), strict=True)
-    try:
-        for cells in reader:
-            if len(cells) > 1 or (cells and cells[0].strip()):
-                yield reader.line_num, cells
-    except UnicodeDecodeError:
-        raise InputError(f"{source.name}: the file is not UTF-8 text; save it as CSV in UTF-8") from None
-    except csv.Error as error:
-        where = f"{source.name}, line {reader.line_num}: "
-        raise InputError(printable(f"{where}not valid CSV: {error}; is a quotation mark left open?")) from None
 
 
 def _cell_by_cell(

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
+from jaxtyping import Float
 
 from boresight.calibration.result import Result
-from boresight.sensing import Sensor
+from boresight.sensing import Cell, Readings, Sensor
+
+_BLOCK = 16_384
 
 
 def residuals_csv(result: Result) -> str:
@@ -19,31 +22,40 @@ def residuals_csv(result: Result) -> str:
     """
     cell, readings = result.cell, result.readings
     units = {name: unit for sensor in cell.sensors.values() for name, unit in _channel_units(sensor).items()}
-    named = {
-        "sensor": len(cell.sensors) > 1,
-        "marker": len(cell.mounts) > 1,
-        "session": readings.session is not None,
+    flagged = [outlier.line for outlier in result.outliers]
+    columns: dict[str, np.ndarray] = {
+        "line": readings.line,
+        "target": _of_aims([aim.target or "" for aim in cell.aims], readings),
     }
-    extra = [name for name, wanted in named.items() if wanted]
-    columns = [f"{when}_{name}_{unit}" for when in ("before", "after") for name, unit in units.items()]
-    flagged = {outlier.line for outlier in result.outliers}
+    if len(cell.sensors) > 1:
+        columns["sensor"] = _of_aims([aim.sensor for aim in cell.aims], readings)
+    if len(cell.mounts) > 1:
+        columns["marker"] = _of_aims([aim.mount for aim in cell.aims], readings)
+    if readings.session is not None:
+        columns["session"] = readings.session
+    for when in ("before", "after"):
+        for channel, unit in units.items():
+            columns[f"{when}_{channel}_{unit}"] = _errors_of_channel(channel, cell, readings, result.errors[when])
+    columns["outlier"] = np.isin(readings.line, flagged).astype(int)
+    return _csv(tuple(columns), _rows_of(tuple(columns.values())))
 
-    def row(place: int) -> list[object]:
-        aim, line = cell.aims[readings.target[place]], int(readings.line[place])
-        sensor = cell.sensors[aim.sensor]
-        keys = {"sensor": aim.sensor, "marker": aim.mount, "session": ""}
-        if readings.session is not None:
-            keys["session"] = readings.session[place]
-        errors = []
-        for when in ("before", "after"):
-            own = {
-                name: -error / (lever or 1.0)
-                for name, lever, error in zip(sensor.channels, sensor.levers, result.errors[when][place], strict=False)
-            }
-            errors += [_digits(own[name]) if name in own else "" for name in units]
-        return [line, aim.target or "", *(keys[name] for name in extra), *errors, int(line in flagged)]
 
-    return _csv(["line", "target", *extra, *columns, "outlier"], map(row, range(len(readings))))
+def _of_aims(words: Sequence[str], readings: Readings) -> np.ndarray:
+    """Returns each row's word, given a word an aim."""
+    return np.array(words, dtype=object)[readings.target]
+
+
+def _errors_of_channel(
+    channel: str, cell: Cell, readings: Readings, errors: Float[np.ndarray, "rows channels"]
+) -> Float[np.ndarray, " rows"]:
+    """Returns the errors of a channel [m or rad], measured minus predicted; NaN where a row's sensor has none."""
+    sensor_of_aim = np.array([list(cell.sensors).index(aim.sensor) for aim in cell.aims])
+    own, found = sensor_of_aim[readings.target], np.full(len(readings), np.nan)
+    for place, sensor in enumerate(cell.sensors.values()):
+        if channel in sensor.channels:
+            k, rows = sensor.channels.index(channel), own == place
+            found[rows] = -errors[rows, k] / (sensor.levers[k] or 1.0)
+    return found
 
 
 def _channel_units(sensor: Sensor) -> dict[str, str]:
@@ -55,19 +67,15 @@ def _channel_units(sensor: Sensor) -> dict[str, str]:
 def convergence_csv(result: Result) -> str:
     """Returns `convergence.csv`: best and mean cost [mm²] after every generation, the first population's in row 0."""
     history = np.asarray(result.solution.history) * 1e6
-    rows = ([generation, *map(_digits, costs)] for generation, costs in enumerate(history))
-    return _csv(["generation", "best_cost_mm2", "mean_cost_mm2"], rows)
+    return _csv(["generation", "best_cost_mm2", "mean_cost_mm2"], _rows_of((np.arange(len(history)), *history.T)))
 
 
 def pose_uncertainty_csv(result: Result) -> str:
     """Returns `pose-uncertainty.csv`: how certain the calibrated tool's pose is over the work space."""
     found = result.in_workspace
     header = ["position_std_m", "position_95_m", "orientation_std_rad", "orientation_95_rad"]
-    columns = (found.position_std, found.position_95, found.orientation_std, found.orientation_95)
-    rows = (
-        [*map(_digits, joints), *map(_digits, sizes)] for joints, *sizes in zip(found.joints, *columns, strict=True)
-    )
-    return _csv([*result.cell.arm.joint_names, *header], rows)
+    sizes = (found.position_std, found.position_95, found.orientation_std, found.orientation_95)
+    return _csv([*result.cell.arm.joint_names, *header], _rows_of((*found.joints.T, *sizes)))
 
 
 def _csv(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
@@ -78,5 +86,19 @@ def _csv(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     return text.getvalue()
 
 
-def _digits(value: float) -> str:
-    return f"{value:.9g}" if np.isfinite(value) else ""
+def _rows_of(columns: Sequence[np.ndarray]) -> Iterator[tuple[object, ...]]:
+    """Yields the rows of columns of equal length.
+
+    Column after column, as a million rows one by one take ten times as long, and block after block, as a million
+    strings a column take gigabytes.
+    """
+    for first in range(0, len(columns[0]), _BLOCK):
+        yield from zip(*(_cells(column[first : first + _BLOCK]) for column in columns), strict=True)
+
+
+def _cells(values: np.ndarray) -> list[object]:
+    """Returns values as they are written: floating-point numbers with nine digits, nothing where one is none."""
+    if values.dtype != np.float64:
+        return values.tolist()
+    finite = np.isfinite(values).tolist()
+    return [f"{value:.9g}" if good else "" for value, good in zip(values.tolist(), finite, strict=True)]

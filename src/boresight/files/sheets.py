@@ -1,0 +1,69 @@
+"""A table of text, row after row: a header and then cells, never all of them in memory."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import BinaryIO
+
+from boresight.errors import InputError
+from boresight.files.problems import printable
+from boresight.files.sources import Source
+
+Row = tuple[int, list[str]]
+"""A row's line in its file, counted from 1, and its cells."""
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A table that can be gone through once.
+
+    Attributes:
+        name: what the user calls its file, for messages.
+        rows: those that are not blank, the header first. Going through them raises an `InputError` where the file
+            turns out not to be what it should.
+    """
+
+    name: str
+    rows: Iterator[Row]
+
+
+def csv_sheet(file: BinaryIO, name: str) -> Sheet:
+    """Returns the rows of a CSV file in UTF-8; `#` begins a comment.
+
+    Args:
+        file: at its beginning.
+        name: what the user calls it.
+    """
+    return Sheet(name, _csv_rows(file, name))
+
+
+def sheet_of(source: Source) -> Sheet:
+    """Returns the rows of a CSV file whose content is at hand."""
+    return csv_sheet(io.BytesIO(source.content), source.name)
+
+
+def csv_text(rows: Iterable[Row]) -> str:
+    """Returns a sheet's rows as CSV."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(cells for _, cells in rows)
+    return text.getvalue()
+
+
+def _csv_rows(file: BinaryIO, name: str) -> Iterator[Row]:
+    text = io.TextIOWrapper(file, encoding="utf-8-sig", newline=None)
+    reader = csv.reader((line.partition("#")[0] for line in text), strict=True)
+    try:
+        for cells in reader:
+            if len(cells) > 1 or (cells and cells[0].strip()):
+                yield reader.line_num, cells
+    except UnicodeDecodeError:
+        raise InputError(f"{name}: the file is not UTF-8 text; save it as CSV in UTF-8") from None
+    except OSError as error:
+        raise InputError(printable(f"{name}: it cannot be read on: {error.strerror or error}")) from None
+    except csv.Error as error:
+        where = f"{name}, line {reader.line_num}: "
+        raise InputError(printable(f"{where}not valid CSV: {error}; is a quotation mark left open?")) from None
+    text.detach()  # or the file, which its owner looks at once more, would be closed with it
