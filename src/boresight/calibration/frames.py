@@ -14,6 +14,7 @@ import numpy as np
 from boresight.calibration.campaign import Freedom
 from boresight.calibration.problem import MISSED_M, Problem
 from boresight.calibration.robust import fit
+from boresight.calibration.thinning import thinned
 from boresight.errors import InputError
 from boresight.geometry import Plane
 from boresight.inference import listed
@@ -36,7 +37,8 @@ def find_frames(cell: Cell, readings: Readings, unknown: frozenset[str], seed: i
 
     Args:
         cell: the nominal cell, unknown numbers at zero.
-        readings: measured values.
+        readings: measured values; of many, some stand for all (`thinning`), since nominal geometry is off by more
+            than the rest could add.
         unknown: the unknown parameters of the base, mounts and points, and unknown offsets.
         seed: of the evolution.
 
@@ -46,7 +48,7 @@ def find_frames(cell: Cell, readings: Readings, unknown: frozenset[str], seed: i
     names = tuple(name for name in cell.index if name in unknown)
     if not names:
         return cell
-    readings = replace(readings, std=np.where(readings.read, _NOISE_M, np.inf))
+    readings = replace(readings, std=np.where(readings.read, _NOISE_M, np.inf)).chosen(thinned(readings))
     few = readings.chosen(np.unique(np.linspace(0, len(readings) - 1, min(_ROWS, len(readings))).astype(int)))
     if set(names) <= set(cell.offsets):  # they add to readings: a straight line leads there from anywhere
         return _settle(cell, readings, names)[0]

@@ -41,16 +41,20 @@ def in_sessions(readings: Readings, plain: Cell, cell: Cell, name: str, problems
     place = {aim: index for index, aim in enumerate(cell.aims)}
     sessioned = {aim.sensor for aim in cell.aims if aim.session is not None}
     known = list(dict.fromkeys(aim.session for aim in cell.aims if aim.session is not None))
+    sessions = [""] * len(readings) if readings.session is None else readings.session.tolist()
+    own = [aim.sensor in sessioned for aim in plain.aims]
+    told: dict[tuple[int, str], int | None] = {}  # a million rows are of a few sessions
     target = np.empty_like(readings.target)
-    for row, (index, line) in enumerate(zip(readings.target, readings.line, strict=True)):
-        aim = plain.aims[index]
-        if aim.sensor in sessioned:
-            given = readings.session[row] if readings.session is not None else ""
-            aim = replace(aim, session=given)
-            if aim not in place:
-                fault = f"no row of {shown(given)} is calibrated with" if given else "the cell is empty"
-                problems.add(f"{name}, line {line}: session: {fault}; expected one of {listed(known)}")
-        target[row] = place.get(aim, 0)
+    for row, pair in enumerate(zip(readings.target.tolist(), sessions, strict=True)):
+        if pair not in told:
+            index, session = pair
+            told[pair] = place.get(replace(plain.aims[index], session=session) if own[index] else plain.aims[index])
+        found = told[pair]
+        if found is None:
+            given = pair[1]
+            fault = f"no row of {shown(given)} is calibrated with" if given else "the cell is empty"
+            problems.add(f"{name}, line {readings.line[row]}: session: {fault}; expected one of {listed(known)}")
+        target[row] = found or 0
     return replace(readings, target=target)
 
 
