@@ -7,13 +7,16 @@ import time
 
 from benchmarks.report import Report
 from benchmarks.speed import batch, end_to_end, identification, least_squares, monte_carlo, roofline, start_up
-from benchmarks.speed.cases import EVALUATIONS
+from benchmarks.speed.cases import EVALUATIONS, MEMBERS
 from benchmarks.speed.claims import figures
 from benchmarks.speed.lines import Line, table_of
 from benchmarks.speed.peak import vector_bits
 from benchmarks.speed.peers import missing
 
-BATCHES, FEW_BATCHES = (35, 100, 1_000, 100_000), (35, 100, 1_000)
+FEW_BATCHES = ((35, MEMBERS), (100, MEMBERS), (1_000, MEMBERS), (35, 15_000))
+BATCHES = (*FEW_BATCHES[:3], (100_000, MEMBERS), (35, 1_500), (35, 15_000), (35, 1_000_000))
+"""Readings and members: both may grow."""
+
 SIZES, FEW_SIZES = (1_000, 10_000, 100_000, 1_000_000), (1_000, 10_000, 100_000)
 
 
@@ -22,8 +25,8 @@ def measure(quick: bool) -> Report:
     began = time.perf_counter()
     lines: list[Line] = []
     roofs = [roofline.measure(readings, 0.5 if quick else 5.0) for readings in roofline.READINGS]
-    for readings in FEW_BATCHES if quick else BATCHES:
-        lines += batch.measure(readings, 3 if quick else 7)
+    for readings, members in FEW_BATCHES if quick else BATCHES:
+        lines += batch.measure(readings, members, 3 if quick else 7)
     for case in (1, 2):
         lines += identification.measure(case, 1 if quick else 5)
     for readings in (100,) if quick else (100, 100_000):
