@@ -20,7 +20,8 @@ from benchmarks.speed.peak import peak_rate, vector_bits
 from benchmarks.speed.timing import say
 from boresight.calibration.problem import Problem
 from boresight.kernels import sweeping
-from boresight.kernels.programs import Program, Rows, aligned, padded, workspace
+from boresight.kernels.lanes import padded
+from boresight.kernels.programs import Program, Rows, aligned, workspace
 from boresight.kernels.sweeping import sweep
 from boresight.sensing.compiled import compile_program, compile_rows
 

@@ -10,8 +10,11 @@ from benchmarks.speed.operations import operations
 from counting import MATH, Counted
 
 from boresight.kernels import building, carrying, sweeping, trigonometry
-from boresight.kernels.programs import LANES, workspace
+from boresight.kernels.lanes import tile
+from boresight.kernels.programs import workspace
 from boresight.sensing.compiled import compile_program, compile_rows
+
+LANES = tile(np.float64)
 
 
 @pytest.fixture
@@ -22,6 +25,7 @@ def uncompiled(monkeypatch):
             if hasattr(function, "py_func"):
                 monkeypatch.setattr(module, name, function.py_func)
     monkeypatch.setattr(carrying, "math", MATH)
+    monkeypatch.setattr(sweeping, "wide", lambda number: number)
 
 
 def objects(array):

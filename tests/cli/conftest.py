@@ -20,7 +20,7 @@ class Said:
 def boresight(tmp_path, monkeypatch, capsys):
     """Runs a command in a folder of its own, on a machine that has compiled the search before."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("boresight.cli.compiling.first_compile_ahead", lambda function: False)
+    monkeypatch.setattr("boresight.cli.compiling.first_compile_ahead", lambda *called: False)
 
     def run(*arguments):
         monkeypatch.setattr("sys.argv", ["boresight", *map(str, arguments)])

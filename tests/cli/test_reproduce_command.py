@@ -5,7 +5,7 @@ import pytest
 
 @pytest.fixture(autouse=True)
 def compiled_before(monkeypatch):
-    monkeypatch.setattr("boresight.cli.compiling.first_compile_ahead", lambda function: False)
+    monkeypatch.setattr("boresight.cli.compiling.first_compile_ahead", lambda *called: False)
 
 
 @pytest.mark.long

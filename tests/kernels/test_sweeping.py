@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from boresight.arm import Arm
-from boresight.kernels.programs import LANES, MISSED, padded, workspace
+from boresight.kernels.lanes import padded, tile
+from boresight.kernels.programs import MISSED, in_precision, workspace
 from boresight.kernels.sweeping import sweep
 from boresight.sensing.compiled import compile_program, compile_rows
 from random_cells import (
@@ -22,17 +23,19 @@ from random_cells import (
     random_frame,
 )
 
-RELATIVE = 1e-12
+LANES = tile(np.float64)
+RELATIVE, RELATIVE_SINGLE = 1e-12, 1e-3
+"""A range of metres is known to a micrometre in single precision, and residuals here are of centimetres."""
 
 
-def compiled_costs(cell, readings, weight, free, prior_weight, members):
+def compiled_costs(cell, readings, weight, free, prior_weight, members, real=np.float64):
     """Returns the costs of (free, members) corrections, padded to whole tiles with copies of the first."""
     count = members.shape[1]
-    lanes = np.repeat(members[:, :1], padded(count), axis=1)
+    lanes = np.repeat(members[:, :1], padded(count, real), axis=1).astype(real)
     lanes[:, :count] = members
-    costs = np.full(padded(count), np.nan)
-    program = compile_program(cell, free, prior_weight)
-    sweep(program, compile_rows(cell, readings, weight), workspace(program), lanes, costs)
+    costs = np.full(padded(count, real), np.nan)
+    program = in_precision(compile_program(cell, free, prior_weight), real)
+    sweep(program, in_precision(compile_rows(cell, readings, weight), real), workspace(program), lanes, costs)
     return costs[:count], costs[count:]
 
 
@@ -60,6 +63,9 @@ def assert_equal_costs(rng, cell, rows, count, free):
     expected = [reference_cost(cell, readings, weight, free, prior_weight, member) for member in members.T]
     np.testing.assert_allclose(costs, expected, rtol=RELATIVE, atol=0)
     assert np.all(spare == costs[0])
+    singles, spare = compiled_costs(cell, readings, weight, free, prior_weight, members, np.float32)
+    np.testing.assert_allclose(singles, expected, rtol=RELATIVE_SINGLE, atol=0)
+    assert np.all(spare == singles[0])
 
 
 @pytest.mark.parametrize("sensor", SENSORS)

@@ -143,9 +143,7 @@ def evolution_task(problem: Problem, solver: Solver) -> Task:
     Raises:
         BoresightError: its cost has no compiled form.
     """
-    cost = problem.thinned().robust_cost
-    if not isinstance(cost, CompiledCost):
-        raise BoresightError("device cuda cannot evolve readings of distances: use device cpu, or least squares")
+    cost = _compiled_cost(problem.thinned(), solver)
     return task_of(cost, problem.box, solver.evolution, solver.seed)
 
 
@@ -155,8 +153,25 @@ def _evolve(problem: Problem, solver: Solver, on_progress: Progress | None) -> E
     told = None if on_progress is None else lambda generation, lowest: on_progress(generation, share * lowest)
     if solver.device.on_card:
         return evolve_on_card([evolution_task(few, solver)], solver.device, solver.stops, told)[0]
-    few.robust_cost.load(solver.evolution, problem.box)
-    return evolve(few.robust_cost, problem.box, solver.evolution, solver.stops, seed=solver.seed, on_progress=told)
+    single = solver.device.precision == "single"
+    cost = _compiled_cost(few, solver).single() if single else few.robust_cost
+    cost.load(solver.evolution, problem.box)
+    return evolve(cost, problem.box, solver.evolution, solver.stops, seed=solver.seed, on_progress=told)
+
+
+def _compiled_cost(problem: Problem, solver: Solver) -> CompiledCost:
+    """Returns a problem's cost where it is asked for in a way that only compiled ones know.
+
+    Raises:
+        BoresightError: it has no compiled form.
+    """
+    cost = problem.robust_cost
+    if not isinstance(cost, CompiledCost):
+        raise BoresightError(
+            f"device {solver.device} cannot evolve readings of distances: use device cpu in double precision, or least "
+            "squares"
+        )
+    return cost
 
 
 def continued_by(solution: Solution, further: Fit) -> Solution:

@@ -59,7 +59,8 @@ def calibrate(
         generations: generations of the evolution (G).
         device: where evolution runs: this processor, or an NVIDIA card. One calibration keeps a small part of a card
             busy; cards are for studies.
-        precision: of the card's numbers; least squares, which follows, is in double precision in any case.
+        precision: of evolution's numbers: single is up to twice as fast, and compiled once more; least squares, which
+            follows, is in double precision in any case.
         seed: of all random numbers; the same seed gives the same answer.
         json: print result.json instead of a summary.
     """
@@ -260,7 +261,7 @@ def study(
         shard: make one part of the runs, such as 2/4, to divide them among machines by hand.
         device: where evolution runs: the workers, or this machine's NVIDIA card for all of them. Runs are kept apart,
             for they differ in their last digits.
-        precision: of the card's numbers.
+        precision: of evolution's numbers: single is up to twice as fast. Runs are kept apart.
         seeds: campaigns of each point; as the file says by default.
         merge: folder of another part, whose runs are added to this one's first; may be given several times.
         summary: run nothing; show what there is, of a study that is still running too.

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from boresight import __version__
-from boresight.calibration import Solver, calibrate
+from boresight.calibration import Campaign, Solver, calibrate
 from boresight.calibration.solve import EVOLUTION
 from boresight.cli.codes import LARGEST_SEED, REJECTED
 from boresight.cli.compiling import told_of_compiling
@@ -49,9 +49,7 @@ def run_calibrate(
         campaign = load_campaign(path, need_readings=True)
         folder = output or Path(f"{campaign.name}-result")
         check_writable(folder)
-        evolves_here = (solver != "least-squares" and not settings.device.on_card) or bool(campaign.unknown)
-        linearises = is_compiled(campaign.cell)
-        told_of_compiling(*([linearise_rows] if linearises else []), *([evolve_generations] if evolves_here else []))
+        _tell_of_compiling(settings, campaign)
         values = campaign.readings.count if campaign.readings else 1
 
         def step(what: str) -> None:
@@ -69,6 +67,16 @@ def run_calibrate(
     else:
         print_summary(PipedConsole(), result, written)
     return 0 if result.verdict.accepted else REJECTED
+
+
+def _tell_of_compiling(settings: Solver, campaign: Campaign) -> None:
+    """Tells the user where something has to be compiled first."""
+    evolves = settings.name != "least-squares" and not settings.device.on_card
+    single = evolves and settings.device.precision == "single"
+    doubles = [linearise_rows] if is_compiled(campaign.cell) else []
+    if (evolves and not single) or campaign.unknown:  # unknown frames are sought in double precision
+        doubles.append(evolve_generations)
+    told_of_compiling(*doubles, singles=[evolve_generations] if single else [])
 
 
 def _solver(solver: str, strategy: str, population: int | None, generations: int, seed: int) -> Solver:

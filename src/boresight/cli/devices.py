@@ -19,13 +19,12 @@ def chosen_device(device: DeviceName, precision: Precision, *, evolves: bool) ->
         InputError: there is nothing for it to do, or it cannot do it.
         BoresightError: there is no card.
     """
-    if device == "cpu":
-        if precision == "single":
-            raise InputError("--precision single is for a card: give --device cuda too, or leave it out")
-        return CPU
-    if not evolves:
-        raise InputError("--device cuda runs evolution, and none was asked for: leave it out")
-    from boresight.kernels.cuda.devices import require_card
+    chosen = Device(device, precision)
+    if chosen != CPU and not evolves:
+        option = f"--device {device}" if chosen.on_card else f"--precision {precision}"
+        raise InputError(f"{option} is for evolution, and none was asked for: leave it out")
+    if chosen.on_card:
+        from boresight.kernels.cuda.devices import require_card
 
-    require_card()
-    return Device(device, precision)
+        require_card()
+    return chosen

@@ -82,8 +82,10 @@ def _run(asked: Study, file: Path, workers, scheduler, part: Shard, errors: Cons
     """Returns whether the study was interrupted, and its summary if not."""
     on_card = any(point.on_card for point in asked.points)
     evolving = next((point for point in asked.points if point.evolves), None)
-    needed = (linearise_rows, *([evolve_generations] if evolving else []))
-    if scheduler is None and not on_card and told_of_compiling(*needed):
+    evolves = [evolve_generations] if evolving else []
+    single = evolving is not None and evolving.settings.device.precision == "single"
+    needed, singles = (linearise_rows, *([] if single else evolves)), evolves if single else []
+    if scheduler is None and not on_card and told_of_compiling(*needed, singles=singles):
         run(evolving or asked.points[0], 0)  # here, so that the workers find it on disk and need not each do it
     with _progress(asked.name, errors, hidden=quiet) as show, _one_interrupt():
         try:

@@ -155,6 +155,7 @@ def breed(run, generation, breeding, members, costs, leaders, trials, lanes):
     generation_key = subkey(run, generation)
     pull, crossover = breeding.pull, breeding.crossover
     lower, upper = breeding.lower, breeding.upper
+    real = members.dtype.type
     for i in range(count):
         key, me = subkey(generation_key, i), np.uint64(i)
         a, plus, minus, leader, scale, forced = parents(
@@ -167,7 +168,8 @@ def breed(run, generation, breeding, members, costs, leaders, trials, lanes):
             bits = draw(key, j)
             trials[i, j] = component(
                 members[i, j], members[origin, j], members[best, j], members[plus, j], members[minus, j],
-                pull, scale, lower[j], upper[j], high_uniform(bits), low_uniform(bits) < crossover or j == forced,
+                real(pull), real(scale), lower[j], upper[j],
+                real(high_uniform(bits)), low_uniform(bits) < crossover or j == forced,
             )  # fmt: skip
         for j in range(parameters):
             lanes[j, i] = trials[i, j]

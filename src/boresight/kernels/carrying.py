@@ -17,10 +17,9 @@ import math
 import numpy as np
 
 from boresight.kernels.compiling import compiled
-from boresight.kernels.programs import MISSED
+from boresight.kernels.programs import MISSED, ONE, TWO, ZERO
 
-_ZERO, _ONE, _TWO, _MISSED = np.float32(0.0), np.float32(1.0), np.float32(2.0), np.float32(MISSED)
-"""In single precision, where they are exact: beside a double they change nothing, beside a single they keep it one."""
+_MISSED = np.float32(MISSED)
 
 
 @compiled
@@ -58,22 +57,28 @@ def completed(x, y, z, sign, is_x, is_y, is_z):
         is_y: whether it is the second.
         is_z: whether it is the third.
     """
-    x, y, z = _ZERO if is_x else x, _ZERO if is_y else y, _ZERO if is_z else z
+    x, y, z = ZERO if is_x else x, ZERO if is_y else y, ZERO if is_z else z
     squares = x * x + y * y + z * z
-    scale = _ONE / math.sqrt(max(squares, _ONE))
-    last = sign * math.sqrt(max(_ONE - squares, _ZERO))
+    scale = ONE / math.sqrt(max(squares, ONE))
+    last = sign * math.sqrt(max(ONE - squares, ZERO))
     return last if is_x else scale * x, last if is_y else scale * y, last if is_z else scale * z
 
 
 @compiled
 def range_residual(nz, f, bias, gain, reading):
     """Returns predicted minus measured range [m], `MISSED` where the beam looks away from its plane."""
-    hits = f * nz < _ZERO
-    safe = nz if hits else _ONE
+    hits = f * nz < ZERO
+    safe = nz if hits else ONE
     return bias - gain * f / safe - reading if hits else _MISSED
 
 
 @compiled
 def robust(square, loss):
     """Returns a squared residual counted by size beyond `loss` (pseudo-Huber), or as it is where `loss` is 0."""
-    return _TWO * loss * (math.sqrt(_ONE + square / loss) - _ONE) if loss > _ZERO else square
+    return TWO * loss * (math.sqrt(ONE + square / loss) - ONE) if loss > ZERO else square
+
+
+@compiled
+def wide(number):
+    """Returns a number in double precision, in which sums are kept."""
+    return np.float64(number)

@@ -6,16 +6,11 @@ once a calibration (`boresight.sensing.compiled`) and never change.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-LANES = 40
-"""Members go through the loops in tiles of this many, their numbers side by side, so that vector code needs
-no remainder and a tile's links stay in the first-level cache. Tried on one core (150 members, 35 readings,
-six links, aligned, 512-bit; ns a range): 16 lanes 7.3, 32 lanes 3.8, 40 lanes 3.3, 80 lanes 4.3. Vectorised
-over readings instead, the loop reaches 4.9 at 1,000 readings, but 20 at 35, where the start of each short loop
-dominates."""
+from boresight.kernels.lanes import tile
 
 _CACHE_LINE = 64
 
@@ -26,6 +21,9 @@ RANGE, OFFSET, DISTANCE, COMPONENT = 0, 1, 2, 3
 """A readout is the range along the sensor's +z to the carried plane; or the plane's offset, the signed distance of
 the sensor's origin from the plane; or the distance of the sensor's origin from the carried point; or, `COMPONENT` and
 the two numbers after it, the x, y or z component of the carried plane's normal."""
+
+ZERO, ONE, TWO = np.float32(0.0), np.float32(1.0), np.float32(2.0)
+"""In single precision, where they are exact: beside a double they change nothing, beside a single they keep it one."""
 
 FIXED = -1
 """In place of a parameter's row: this number does not move."""
@@ -113,12 +111,12 @@ class Workspace(NamedTuple):
     """Memory of one thread, allocated once a search.
 
     Attributes:
-        links: (segments * 12 * LANES,) link constants of a tile: R column by column, then t [m].
-        planes: (planes * 4 * LANES,) planes of a tile, as seen from the first joint's axis.
-        state: (8 * LANES,) the carried planes (n_x, n_y, n_z, f) of two readings of a tile.
-        costs: (LANES,) cost of a tile.
-        sensor: (sensors * 2 * LANES,) bias [m] and gain of a tile's sensors.
-        scratch: (2 * LANES,) sines and cosines of a motion.
+        links: (segments * 12 * lanes,) link constants of a tile: R column by column, then t [m].
+        planes: (planes * 4 * lanes,) planes of a tile, as seen from the first joint's axis.
+        state: (8 * lanes,) the carried planes (n_x, n_y, n_z, f) of two readings of a tile.
+        costs: (lanes,) cost of a tile, in double precision.
+        sensor: (sensors * 2 * lanes,) bias [m] and gain of a tile's sensors.
+        scratch: (2 * lanes,) sines and cosines of a motion.
     """
 
     links: np.ndarray
@@ -138,18 +136,25 @@ def aligned(*shape: int, dtype: type = np.float64) -> np.ndarray:
 
 
 def workspace(program: Program) -> Workspace:
-    """Returns fresh memory for the loops over a program."""
-    segments = len(program.segment_start) - 1
+    """Returns fresh memory for the loops over a program, in its precision."""
+    segments, real = len(program.segment_start) - 1, program.plane.dtype.type
+    lanes = tile(real)
     return Workspace(
-        links=aligned(segments * 12 * LANES),
-        planes=aligned(max(len(program.plane), 1) * 4 * LANES),
-        state=aligned(8 * LANES),
-        costs=aligned(LANES),
-        sensor=aligned(len(program.sensor_value) * 2 * LANES),
-        scratch=aligned(2 * LANES),
+        links=aligned(segments * 12 * lanes, dtype=real),
+        planes=aligned(max(len(program.plane), 1) * 4 * lanes, dtype=real),
+        state=aligned(8 * lanes, dtype=real),
+        costs=aligned(lanes),
+        sensor=aligned(len(program.sensor_value) * 2 * lanes, dtype=real),
+        scratch=aligned(2 * lanes, dtype=real),
     )
 
 
-def padded(count: int) -> int:
-    """Returns the number of lanes that hold `count` members in whole tiles."""
-    return -(-count // LANES) * LANES
+def in_precision(numbers: Any, real: type[np.floating]) -> Any:
+    """Returns a named tuple whose floating-point numbers are in a precision."""
+
+    def cast(value: Any) -> Any:
+        if isinstance(value, np.ndarray):
+            return value.astype(real) if value.dtype.kind == "f" else value
+        return real(value) if isinstance(value, float) else value
+
+    return type(numbers)(*map(cast, numbers))

@@ -19,9 +19,6 @@ TILE = 128
 def fold(triangle, block):
     """Makes R of [R; B] of R in place.
 
-    One function, for one that it called would be compiled twice, within it and beside it: a process that compiles ran
-    the other than a process that loads from disk, and the two differed in the last digits.
-
     Args:
         triangle: (columns, columns) R, upper triangular; zeros to begin with.
         block: (columns, rows) B, turned; what is left in it means nothing.

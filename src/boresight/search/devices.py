@@ -17,15 +17,11 @@ class Device:
 
     Attributes:
         name: this machine's processor, or its NVIDIA card.
-        precision: of the card's numbers; the processor's are double.
+        precision: of its numbers; least squares, which follows, is in double precision in any case.
     """
 
     name: DeviceName = "cpu"
     precision: Precision = "double"
-
-    def __post_init__(self) -> None:
-        if self.name == "cpu" and self.precision != "double":
-            raise ValueError("single precision is for the card: it needs device cuda")
 
     @property
     def on_card(self) -> bool:
@@ -39,7 +35,7 @@ class Device:
 
     def __str__(self) -> str:
         """Returns it in words."""
-        return f"{self.name}, {self.precision} precision" if self.on_card else self.name
+        return self.name if self == CPU else f"{self.name}, {self.precision} precision"
 
 
 CPU = Device()

@@ -16,7 +16,8 @@ import numpy as np
 from jaxtyping import Float
 
 from boresight.kernels.breeding import Breeding, breed, lead, select, sow
-from boresight.kernels.programs import WORST, aligned, padded
+from boresight.kernels.lanes import padded
+from boresight.kernels.programs import WORST, aligned
 from boresight.kernels.random import run_key
 from boresight.search.box import Box
 from boresight.search.strategies import TRADE_OFF, Strategy

@@ -16,7 +16,19 @@ from jaxtyping import Float
 from boresight.arm import Chain, Motion
 from boresight.geometry import Plane
 from boresight.kernels.evolving import evolve_generations
-from boresight.kernels.programs import COMPONENT, FIXED, POINT, SHIFT, TURN, Program, Rows, aligned, padded, workspace
+from boresight.kernels.lanes import padded
+from boresight.kernels.programs import (
+    COMPONENT,
+    FIXED,
+    POINT,
+    SHIFT,
+    TURN,
+    Program,
+    Rows,
+    aligned,
+    in_precision,
+    workspace,
+)
 from boresight.kernels.sweeping import sweep
 from boresight.search import Box, DifferentialEvolution, Population, Staleness, Stops, Stretch, seed_population
 from boresight.sensing.aims import Aim
@@ -171,17 +183,24 @@ def _sensor_rows(aim: Aim, place: dict[str, int]) -> list[int]:
 class CompiledCost:
     """The cost of corrections: weighted squared residuals plus weighted squared corrections.
 
-    Callable on (members, parameters), and able to run whole generations (`boresight.search.evolve`).
+    Callable on (members, parameters), and able to run whole generations (`boresight.search.evolve`). Members come and
+    go in double precision, whatever costs are computed in.
     """
 
     def __init__(self, program: Program, rows: Rows) -> None:
+        """Args: program and rows are in the precision to compute in."""
         self.program = program
         self.rows = rows
+        self._real = program.plane.dtype.type
         self._work = workspace(program)
+
+    def single(self) -> CompiledCost:
+        """Returns the same in single precision, which is up to twice as fast and knows a range to a micrometre."""
+        return CompiledCost(in_precision(self.program, np.float32), in_precision(self.rows, np.float32))
 
     def __call__(self, members: Float[np.ndarray, "members parameters"]) -> Float[np.ndarray, "members"]:
         """Returns the cost of every member."""
-        lanes = np.zeros((max(members.shape[1], 1), padded(len(members))))
+        lanes = np.zeros((max(members.shape[1], 1), padded(len(members), self._real)), dtype=self._real)
         lanes[: members.shape[1], : len(members)] = members.T
         costs = np.empty(lanes.shape[1])
         sweep(self.program, self.rows, self._work, lanes, costs)
@@ -202,17 +221,17 @@ class CompiledCost:
         generations: int,
     ) -> Stretch:
         """Returns the population some generations later, or at the first stop."""
-        count, parameters = population.members.shape
-        members, trials = aligned(count, parameters), aligned(count, parameters)
+        (count, parameters), real = population.members.shape, self._real
+        members, trials = (aligned(count, parameters, dtype=real) for _ in range(2))
         members[:] = population.members
         costs = population.costs.copy()
-        lanes = aligned(parameters, padded(count))
+        lanes = aligned(parameters, padded(count, real), dtype=real)
         history = np.empty((generations, 2))
         done, stale, reference = evolve_generations(
             self.program,
             self.rows,
             self._work,
-            settings.breeding(box),
+            in_precision(settings.breeding(box), real),
             np.uint64(population.key),
             members,
             costs,
@@ -224,5 +243,10 @@ class CompiledCost:
             (stops.cost, stops.patience, stops.improvement),
             history,
         )
-        after = replace(population, members=members, costs=costs, generation=population.generation + done)
+        after = replace(
+            population,
+            members=members.astype(np.float64, copy=False),
+            costs=costs,
+            generation=population.generation + done,
+        )
         return Stretch(after, Staleness(stale, reference), history[:done])

@@ -190,7 +190,7 @@ class Point:
         numbers = {name: getattr(settings, name) for name in ("rows", "gross_errors", "solver", "validation_rows")}
         if self.evolves:
             numbers |= {n: getattr(settings, n) for n in ("strategy", "population", "generations", "patience")}
-        if self.on_card:
+        if self.evolves and settings.device != CPU:
             numbers["device"] = str(settings.device)
         return numbers
 
