@@ -20,7 +20,7 @@ def figures(lines: list[Line], roofs: list[Roof], ended: list[EndToEnd]) -> tupl
         _ratio(lines, "SciPy DE, vectorised, NumPy cost", 100.0),
         _ratio(lines, "SciPy DE, scalar, compiled cost", 100.0),
         _ratio(lines, "pygmo de, compiled cost", 10.0),
-        *(_roof(roof) for roof in roofs if roof.readings == 1_000),
+        *(_roof(roof) for roof in roofs if (roof.readings, roof.precision) == (1_000, "double")),
         _cores(lines),
         _time(lines, "process", start_up.HELP, "--help", 0.3),
         _time(lines, "process", start_up.WARM, f"{start_up.WARM}, warm", 2.0),

@@ -16,6 +16,7 @@ from benchmarks.speed.peers import PEERS, entries
 from benchmarks.speed.peers.costs import hold_to_ours
 from benchmarks.speed.timing import Entry, interleaved
 from boresight.calibration.problem import Problem
+from boresight.calibration.robust import refine
 from boresight.search import STRATEGIES, DifferentialEvolution, Stops, evolve
 
 THEIRS = ("trade-off", "rand-to-best/1", "current-to-best/1")
@@ -34,6 +35,7 @@ def ours(problem: Problem, generations: int = GENERATIONS) -> list[Entry]:
         for name in THEIRS
     ]
     found[0] = replace(found[0], is_ours=True)
+    found.append(_refined(problem, generations))
     downhill = DifferentialEvolution(STRATEGIES["downhill"])
     whole = max(1, round(150 * (generations + 1) / downhill.population) - 1)
     found.append(_entry(problem, downhill, whole, "downhill"))
@@ -51,6 +53,19 @@ def measure(
         [*ours(problem, generations), *entries(problem, generations, peers)], rounds, title=workload(case)
     )
     return lines_of(workload(case), timed, "mm RMS")
+
+
+def _refined(problem: Problem, generations: int) -> Entry:
+    """Returns the default in single precision, with least squares in double precision behind it."""
+    settings = DifferentialEvolution(scale=SCALE, crossover=CROSSOVER)
+    cost, stops = problem.cost.single(), Stops(generations, cost=0.0, patience=10**9)
+    cost.load(settings, problem.box)
+
+    def run(seed: int) -> float:
+        found = refine(problem, evolve(cost, problem.box, settings, stops, seed=seed).best)
+        return rms_mm(float(problem.cost(found.best[None])[0]), problem)
+
+    return Entry("Boresight, single precision", run, "then least squares")
 
 
 def _entry(problem: Problem, settings: DifferentialEvolution, generations: int, name: str) -> Entry:

@@ -24,7 +24,9 @@ def measure(quick: bool) -> Report:
     """Returns everything measured."""
     began = time.perf_counter()
     lines: list[Line] = []
-    roofs = [roofline.measure(readings, 0.5 if quick else 5.0) for readings in roofline.READINGS]
+    seconds = 0.5 if quick else 5.0
+    roofs = [roofline.measure(readings, seconds) for readings in roofline.READINGS]
+    roofs += [roofline.measure(readings, seconds, "single") for readings in roofline.SINGLES]
     for readings, members in FEW_BATCHES if quick else BATCHES:
         lines += batch.measure(readings, members, 3 if quick else 7)
     for case in (1, 2):

@@ -23,12 +23,12 @@ _EXPECTED = 80e9
 
 
 @numba.njit(fastmath=True, error_model="numpy")
-def burn(numbers, factors, rounds):
-    """Returns a number that depends on every multiplication."""
+def burn(numbers, factors, zero, rounds):
+    """Returns a number that depends on every multiplication, all in the precision of what is given."""
     k0, k1, k2, k3, k4, k5, k6, k7 = factors
-    total = 0.0
+    total = zero
     for _ in range(rounds):
-        a = b = c = d = e = f = g = h = 0.0
+        a = b = c = d = e = f = g = h = zero
         for i in range(numbers.shape[0]):
             x = numbers[i]
             a += x * k0
@@ -43,14 +43,14 @@ def burn(numbers, factors, rounds):
     return total
 
 
-def peak_rate(seconds: float) -> float:
-    """Returns the operations a second of a loop that takes about so long; the first call compiles."""
-    rounds = max(1, round(seconds * _EXPECTED / (2 * SUMS * NUMBERS)))
-    numbers, factors = np.linspace(0.0, 1.0, NUMBERS), tuple(np.linspace(0.5, 1.5, SUMS).tolist())
-    if not burn.signatures:
-        burn(numbers, factors, 1)
+def peak_rate(seconds: float, real: type[np.floating] = np.float64) -> float:
+    """Returns the operations a second of a loop that takes about so long; the first call in a precision compiles."""
+    expected = _EXPECTED * 8 / np.dtype(real).itemsize
+    rounds = max(1, round(seconds * expected / (2 * SUMS * NUMBERS)))
+    numbers, factors = np.linspace(0.0, 1.0, NUMBERS).astype(real), tuple(np.linspace(0.5, 1.5, SUMS).astype(real))
+    burn(numbers, factors, real(0.0), 1)
     began = time.perf_counter()
-    burn(numbers, factors, rounds)
+    burn(numbers, factors, real(0.0), rounds)
     return 2 * SUMS * NUMBERS * rounds / (time.perf_counter() - began)
 
 

@@ -1,8 +1,8 @@
 """The kernel against the machine: the sweep over 150 members, beside the measured peak of multiply-adds.
 
 Kernel and peak are measured in turns of equal length, so that both meet the same clock and the same company. 150
-members go through in four tiles of 40 lanes; the operations of the 10 spare lanes are not counted, though they are
-done. A division counts as one operation, though it costs a core more than an addition.
+members go through in four tiles of 40 lanes, or two of 80 in single precision; the operations of the 10 spare lanes are
+not counted, though they are done. A division counts as one operation, though it costs a core more than an addition.
 """
 
 from __future__ import annotations
@@ -21,12 +21,16 @@ from benchmarks.speed.timing import say
 from boresight.calibration.problem import Problem
 from boresight.kernels import sweeping
 from boresight.kernels.lanes import padded
-from boresight.kernels.programs import Program, Rows, aligned, workspace
+from boresight.kernels.programs import Program, Rows, aligned, in_precision, workspace
 from boresight.kernels.sweeping import sweep
+from boresight.search.devices import Device, Precision
 from boresight.sensing.compiled import compile_program, compile_rows
 
 READINGS = (35, 100, 1_000, 100_000)
 """Of a batch; of 100,000, the first thousand come again and again, each time in memory of their own."""
+
+SINGLES = (35, 1_000)
+"""The same in single precision, beside the peak in single precision."""
 
 DRAWN = 1_000
 
@@ -40,12 +44,14 @@ class Roof:
         counted: operations of a member.
         seconds: (runs,) of a sweep over `MEMBERS`.
         peak: (runs,) operations a second of the loop of multiply-adds, measured right after each.
+        precision: double or single, of both.
     """
 
     readings: int
     counted: Operations
     seconds: np.ndarray
     peak: np.ndarray
+    precision: Precision = "double"
 
     @property
     def range_seconds(self) -> float:
@@ -67,10 +73,11 @@ class Roof:
         """Share of the peak, the fastest sweep beside the fastest multiply-adds."""
         return self.counted.of(MEMBERS, self.readings) / float(self.seconds.min() * self.peak.max())
 
-    def as_values(self) -> dict[str, float]:
+    def as_values(self) -> dict[str, object]:
         """Returns it as plain values."""
         return {
             "readings": self.readings,
+            "precision": self.precision,
             "nanoseconds_a_range": 1e9 * self.range_seconds,
             "operations_a_member": self.counted.member,
             "operations_a_reading": self.counted.reading,
@@ -81,18 +88,19 @@ class Roof:
         }
 
 
-def measure(readings: int, seconds: float) -> Roof:
+def measure(readings: int, seconds: float, precision: Precision = "double") -> Roof:
     """Returns the sweep over a number of readings, measured for some seconds."""
-    say(f"roofline: {readings:,} configurations")
+    say(f"roofline: {readings:,} configurations, {precision} precision")
+    real = Device("cpu", precision).real
     problem = plain(min(readings, DRAWN))
-    program, rows = _compiled(problem)
+    program, rows = (in_precision(each, real) for each in _compiled(problem))
     rows = repeated(rows, readings)
-    work, costs = workspace(program), aligned(padded(MEMBERS))
-    lanes = aligned(len(problem.names), padded(MEMBERS))
+    work, costs = workspace(program), aligned(padded(MEMBERS, real))
+    lanes = aligned(len(problem.names), padded(MEMBERS, real), dtype=real)
     box = problem.box
     lanes[:] = np.random.default_rng(0).uniform(box.lower[:, None], box.upper[:, None], lanes.shape)
     sweep(program, rows, work, lanes, costs)
-    peak_rate(1e-3)
+    peak_rate(1e-3, real)
     again = max(1, int(2e-3 / (MEMBERS * readings * 3e-9)))
     times, peaks = [], []
     until = time.perf_counter() + seconds
@@ -102,8 +110,8 @@ def measure(readings: int, seconds: float) -> Roof:
             sweep(program, rows, work, lanes, costs)
         taken = time.perf_counter() - began
         times.append(taken / again)
-        peaks.append(peak_rate(taken))
-    return Roof(readings, operations(program, rows), np.array(times), np.array(peaks))
+        peaks.append(peak_rate(taken, real))
+    return Roof(readings, operations(program, rows), np.array(times), np.array(peaks), precision)
 
 
 def kernel_bits() -> int:
@@ -132,7 +140,7 @@ def repeated(rows: Rows, readings: int) -> Rows:
 def table_of(roofs: list[Roof]) -> Table:
     """Returns the roofline as text."""
     header = (
-        "configurations", "ns a range, median", "min", "operations a range", "in links and planes",
+        "configurations", "precision", "ns a range, median", "min", "operations a range", "in links and planes",
         "Gflop/s", "peak, Gflop/s", "share of peak", "of best runs", "runs",
     )  # fmt: skip
     rows = []
@@ -140,9 +148,9 @@ def table_of(roofs: list[Roof]) -> Table:
         shared = roof.counted.member / roof.readings
         least = float(roof.seconds.min()) / (MEMBERS * roof.readings)
         rows.append((
-            f"{roof.readings:,}", f"{1e9 * roof.range_seconds:.2f}", f"{1e9 * least:.2f}",
+            f"{roof.readings:,}", roof.precision, f"{1e9 * roof.range_seconds:.2f}", f"{1e9 * least:.2f}",
             f"{roof.counted.reading + shared:.0f}", f"{shared:.0f}", f"{roof.rate / 1e9:.1f}",
             f"{float(np.median(roof.peak)) / 1e9:.1f}", f"{100 * roof.fraction:.0f} %",
             f"{100 * roof.undisturbed:.0f} %", f"{len(roof.seconds)}",
         ))  # fmt: skip
-    return Table("Roofline of the sweep, 150 members, one core, double precision", header, tuple(rows))
+    return Table("Roofline of the sweep, 150 members, one core", header, tuple(rows))

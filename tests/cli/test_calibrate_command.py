@@ -139,3 +139,21 @@ def test_every_strategy_runs(boresight, one_plane, strategy):
     said = boresight("calibrate", one_plane.campaign, "--json", "--strategy", strategy, "--generations", "30")
     assert said.code == 0
     assert json.loads(said.out)["search"]["strategy"] == strategy
+
+
+def test_single_precision_finds_the_same_and_is_told(boresight, one_plane, tmp_path):
+    found = {}
+    for precision in ("double", "single"):
+        said = boresight("calibrate", one_plane.campaign, "-o", precision, "--precision", precision, "--json")
+        assert said.code == 0
+        found[precision] = json.loads((tmp_path / precision / "result.json").read_text())
+    assert found["single"]["search"]["device"] == "cpu, single precision"
+    assert found["double"]["search"]["device"] == "cpu"
+    for single, double in zip(found["single"]["parameters"], found["double"]["parameters"], strict=True):
+        assert single["identified"] == pytest.approx(double["identified"], abs=1e-6 * (double["std"] or 1.0))
+
+
+def test_precision_without_evolution_is_told(boresight, one_plane):
+    said = boresight("calibrate", one_plane.campaign, "--precision", "single", *QUICK)
+    assert said.code == 1
+    assert "--precision single is for evolution, and none was asked for: leave it out" in said.err

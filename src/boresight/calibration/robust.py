@@ -9,8 +9,9 @@ leaves unexplained is found (`inference.model_std`).
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -44,6 +45,7 @@ PLENTY = 20
 _SETTLED = 0.01
 _SOFT = 2.0
 _ORDINARY = 0.3
+_CLOSE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -292,13 +294,32 @@ def _typical_excess(
     medians = np.array([1.0, *(_quantile(count, 0.5) for count in range(1, channels.max() + 1))])
     ordinary = medians[channels]
 
-    def surplus(excess: float) -> float:
-        return float(np.median(_sizes(errors / np.hypot(std, excess), channels) / ordinary)) - 1.0
+    def surplus(variance: float) -> float:
+        """Returns the share of the median row's variance that is lacking with so much more of it.
 
-    if surplus(0.0) <= _ORDINARY:
+        As long as the same row of one channel is the median, it is linear: a few steps find where it is 0.
+        """
+        size = float(np.median(_sizes(errors / np.sqrt(std**2 + variance), channels) / ordinary))
+        return 1.0 - size**-2.0 if size > 0.0 else -math.inf
+
+    if surplus(0.0) <= 1.0 - (1.0 + _ORDINARY) ** -2.0:
         return 0.0
-    low, high = 0.0, float(np.nanmax(np.abs(errors), initial=1e-12)) / float(ordinary.min())
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if surplus(middle) > 0.0 else (low, middle)
+    largest = float(np.nanmax(np.abs(errors), initial=1e-12)) / float(ordinary.min())
+    return math.sqrt(_root(surplus, largest**2))
+
+
+def _root(falling: Callable[[float], float], end: float) -> float:
+    """Returns where a falling function is 0 between 0 and an end, by false position (Illinois); else the end."""
+    low, high, at_low, at_high = 0.0, end, falling(0.0), falling(end)
+    if at_high > 0.0:
+        return end
+    while high - low > _CLOSE * high:
+        middle = (high * at_low - low * at_high) / (at_low - at_high)
+        value = falling(middle)
+        if value == 0.0 or not low < middle < high:
+            return middle
+        if value > 0.0:
+            low, at_low, at_high = middle, value, 0.5 * at_high
+        else:
+            high, at_high, at_low = middle, value, 0.5 * at_low
     return high
