@@ -150,12 +150,13 @@ def in_pairs(
 
 def _sees(cell: Cell, joints: Float[np.ndarray, "rows joints"], place: int) -> np.ndarray:
     aim = cell.aims[place]
-    if not isinstance(cell.sensors[aim.sensor], LaserRanger) or aim.target is None:
+    sensor = cell.sensors[aim.sensor]
+    if not isinstance(sensor, LaserRanger) or aim.target is None:
         return np.ones(len(joints), dtype=bool)
-    ranges = cell.predict(joints, np.full(len(joints), place))[:, 0]
-    plane = cell.targets[aim.target]
+    poses, plane = cell.poses(joints, None, np.full(len(joints), place)), cell.targets[aim.target]
     assert isinstance(plane, Plane)
-    cosine = np.abs(cell.poses(joints, None, np.full(len(joints), place))[:, :3, 2] @ np.asarray(plane.normal))
+    ranges = sensor.predict(poses, plane, poses)[:, 0]
+    cosine = np.abs(poses[:, :3, 2] @ np.asarray(plane.normal))
     return (np.nan_to_num(ranges, nan=0.0) > NEAREST_M) & (cosine > GRAZING)
 
 
