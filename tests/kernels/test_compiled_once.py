@@ -55,3 +55,18 @@ def test_the_first_process_on_a_machine_computes_what_later_ones_do(tmp_path):
     assert first.returncode == 0, first.stderr
     assert len(first.stdout.splitlines()) == 21
     assert first.stdout.splitlines() == later.stdout.splitlines()
+
+
+@pytest.mark.long
+def test_what_is_compiled_beside_evolution_is_all_that_least_squares_calls(tmp_path):
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
+    subprocess.run([sys.executable, "-m", "boresight.cli.warming"], env=environment, check=True)
+    ask = (
+        "from boresight.kernels.compiling import first_compile_ahead as ahead\n"
+        "from boresight.kernels.linearising import linearise_rows, predict_rows\n"
+        "from boresight.kernels.reducing import fold\n"
+        "from boresight.kernels.evolving import evolve_generations\n"
+        "print(*map(ahead, (linearise_rows, predict_rows, fold, evolve_generations)))"
+    )
+    told = subprocess.run([sys.executable, "-c", ask], env=environment, capture_output=True, text=True, check=True)
+    assert told.stdout.split() == ["False", "False", "False", "True"]
