@@ -19,7 +19,7 @@ from boresight.calibration.outliers import find_outliers
 from boresight.calibration.problem import Problem
 from boresight.calibration.result import Result, Unseen
 from boresight.calibration.robust import Fit, check_noise
-from boresight.calibration.solve import Progress, Solution, Solver, Step, continued_by, solve
+from boresight.calibration.solve import Progress, Solution, Solver, Step, continued_by, solve, unheard
 from boresight.calibration.thinning import thinned
 from boresight.calibration.verdict import LOUD, judge
 from boresight.errors import InputError
@@ -47,7 +47,7 @@ def calibrate(
     campaign: Campaign,
     solver: Solver | None = None,
     on_progress: Progress | None = None,
-    on_step: Step | None = None,
+    on_step: Step = unheard,
 ) -> Result:
     """Returns the identified arm, how certain it is, and whether to use it (paper, section 3.3).
 
@@ -66,34 +66,33 @@ def calibrate(
         raise InputError(f"{campaign.name}: a calibration needs readings; give `observations:` in the campaign")
     if not readings.measured:
         raise InputError(f"{campaign.name}: there are configurations but no readings; measure them, then calibrate")
-    say = on_step or (lambda what: None)
-    say("finding the frames")
+    on_step("finding the frames")
     nominal = find_frames(campaign.cell, readings, campaign.unknown, solver.seed)
     nominal = nominal if campaign.gravity is None else nominal.under(campaign.gravity)
     freedoms = freedoms_of(campaign, nominal)
     if not freedoms:
         raise InputError(f"{campaign.name}: every parameter is fixed, so there is nothing to calibrate")
     geometric = solve(Problem(nominal, readings, freedoms), solver, on_progress, on_step=on_step)
-    say("looking beyond geometry")
+    on_step("looking beyond geometry")
     solution, beyond = _beyond(campaign, geometric, solver.seed)
     problem, x = solution.fit.problem, solution.fit.x
     nominal = problem.cell
     identified = problem.fitted(x)
-    say("asking what the rows can know")
+    on_step("asking what the rows can know")
     found = identify_directions(problem.names, problem.seen(x), problem.scale)
     moves = movements_of(problem.cell, readings.joints, readings.target, problem.names, problem.corrections(x))
     covariance = problem.covariance(x)
-    say("judging by held-out rows")
+    on_step("judging by held-out rows")
     if campaign.validation is not None:
         held_out = on_validation_rows(nominal, identified, campaign.validation)
     else:
         held_out = by_cross_validation(solution.fit, solver.seed)
-    say("telling how certain the tool is")
+    on_step("telling how certain the tool is")
     spread = spread_configurations(identified, WORKSPACE_CONFIGURATIONS)
     in_workspace = pose_uncertainty(identified, problem.names, covariance, spread)
     errors = {"before": problem.errors(np.zeros(len(x))), "after": problem.errors(x)}
     asked = readings if campaign.validation is None else campaign.validation
-    say("looking for jumps")
+    on_step("looking for jumps")
     jumps = find_jumps(solution.fit)
     unseen = tuple(Unseen(each.parameters, each.words) for each in unseen_in_words(found, problem.scale, moves))
     return Result(

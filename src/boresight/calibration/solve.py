@@ -31,6 +31,11 @@ LOWER = 1e-4
 Progress = Callable[[int, float], None]
 Step = Callable[[str], None]
 
+
+def unheard(what: str) -> None:
+    """Does nothing with what is done next, where nobody wants to hear it."""
+
+
 EVOLUTION, LEAST_SQUARES = "evolution", "least squares"
 """What a solver does, in words."""
 
@@ -100,7 +105,7 @@ def solve(
     solver: Solver,
     on_progress: Progress | None = None,
     evolved: Evolved | None = None,
-    on_step: Step | None = None,
+    on_step: Step = unheard,
 ) -> Solution:
     """Returns the best fit that the solver finds; of two optima, the lower.
 
@@ -114,16 +119,15 @@ def solve(
         evolved: the evolution, where it has run already.
         on_step: called with what is done next.
     """
-    say = on_step or (lambda what: None)
     if solver.name == "least-squares":
-        say(LEAST_SQUARES)
+        on_step(LEAST_SQUARES)
         direct = fit(problem, np.zeros(len(problem.names)))
         stage = _stage("least squares from the nominal model", direct, direct)
         return Solution(direct, (stage,), np.empty((0, 2)), stage, True)
     if evolved is None:
-        say(EVOLUTION)
+        on_step(EVOLUTION)
         evolved = _evolve(problem, solver, on_progress)
-    say(LEAST_SQUARES)
+    on_step(LEAST_SQUARES)
     if solver.name == "evolution":
         found = fit(problem, evolved.best, move=False)
         return Solution(found, (_evolution(found, evolved),), evolved.history, None, None)

@@ -71,12 +71,10 @@ def run_calibrate(
 
 def _tell_of_compiling(settings: Solver, campaign: Campaign) -> None:
     """Tells the user where something has to be compiled first."""
-    evolves = settings.name != "least-squares" and not settings.device.on_card
-    single = evolves and settings.device.precision == "single"
-    doubles = [linearise_rows] if is_compiled(campaign.cell) else []
-    if (evolves and not single) or campaign.unknown:  # unknown frames are sought in double precision
-        doubles.append(evolve_generations)
-    told_of_compiling(*doubles, singles=[evolve_generations] if single else [])
+    needed = [linearise_rows] if is_compiled(campaign.cell) else []
+    if campaign.unknown:  # unknown frames are sought on this processor, in double precision
+        needed.append(evolve_generations)
+    told_of_compiling(*needed, evolves=None if settings.name == "least-squares" else settings.device)
 
 
 def _solver(solver: str, strategy: str, population: int | None, generations: int, seed: int) -> Solver:

@@ -5,27 +5,28 @@ from __future__ import annotations
 import contextlib
 import subprocess
 import sys
-from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
 from rich.console import Console
 
 from boresight.kernels.compiling import first_compile_ahead
+from boresight.kernels.evolving import evolve_generations
 from boresight.kernels.linearising import linearise_rows
+from boresight.search import Device
 
 
-def told_of_compiling(*functions: Any, singles: Sequence[Any] = ()) -> bool:
+def told_of_compiling(*functions: Any, evolves: Device | None = None) -> bool:
     """Returns whether one of some compiled functions is not on disk yet; then the user has been told.
 
     Where evolution and least squares both have to be compiled, another process does the latter meanwhile.
 
     Args:
         functions: those called in double precision.
-        singles: those called in single precision.
+        evolves: where evolution runs, in its precision; None where it does not.
     """
     ahead = [each for each in functions if first_compile_ahead(each)]
-    ahead += [each for each in singles if first_compile_ahead(each, np.float32)]
+    if evolves is not None and not evolves.on_card and first_compile_ahead(evolve_generations, evolves.real):
+        ahead.append(evolve_generations)
     if ahead:
         Console(stderr=True).print("Compiling for this machine; this happens once and takes about ten seconds.")
     if len(ahead) > 1 and linearise_rows in ahead:

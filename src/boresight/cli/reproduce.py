@@ -14,12 +14,12 @@ from boresight.cli.codes import LARGEST_SEED
 from boresight.cli.compiling import told_of_compiling
 from boresight.cli.consoles import PipedConsole
 from boresight.errors import InputError
-from boresight.kernels.evolving import evolve_generations
 from boresight.kernels.linearising import linearise_rows
 from boresight.reproduction import Document, compose, reproduce, write_reproduction
 from boresight.reproduction.folder import check_writable
 from boresight.reproduction.reproduce import QUICK_SEEDS, SEEDS
 from boresight.reproduction.verdicts import Verdict
+from boresight.search import CPU
 
 MOST_SEEDS, MOST_WORKERS = 100_000, 1024
 
@@ -32,7 +32,7 @@ def run_reproduce(output: Path, *, quick: bool, seeds: int | None, seed: int, wo
     check_writable(output)
     count = seeds or (QUICK_SEEDS if quick else SEEDS)
     errors = Console(stderr=True)
-    told_of_compiling(linearise_rows, evolve_generations)
+    told_of_compiling(linearise_rows, evolves=CPU)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("seeds"))
     with Progress(
         *columns,

@@ -19,7 +19,6 @@ from boresight.cli.devices import chosen_device
 from boresight.errors import InputError, OutputError
 from boresight.files import load_study
 from boresight.files.study_schemas import MOST_SEEDS
-from boresight.kernels.evolving import evolve_generations
 from boresight.kernels.linearising import linearise_rows
 from boresight.report.study import print_study, study_json, write_study
 from boresight.search.devices import DeviceName, Precision
@@ -82,10 +81,8 @@ def _run(asked: Study, file: Path, workers, scheduler, part: Shard, errors: Cons
     """Returns whether the study was interrupted, and its summary if not."""
     on_card = any(point.on_card for point in asked.points)
     evolving = next((point for point in asked.points if point.evolves), None)
-    evolves = [evolve_generations] if evolving else []
-    single = evolving is not None and evolving.settings.device.precision == "single"
-    needed, singles = (linearise_rows, *([] if single else evolves)), evolves if single else []
-    if scheduler is None and not on_card and told_of_compiling(*needed, singles=singles):
+    evolves = evolving.settings.device if evolving else None
+    if scheduler is None and not on_card and told_of_compiling(linearise_rows, evolves=evolves):
         run(evolving or asked.points[0], 0)  # here, so that the workers find it on disk and need not each do it
     with _progress(asked.name, errors, hidden=quiet) as show, _one_interrupt():
         try:

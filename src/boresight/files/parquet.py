@@ -47,14 +47,15 @@ def _rows(source: OpenSource, limit_mib: int) -> Iterator[Row]:
     except ImportError:
         raise refused(f"reading Parquet needs pyarrow, which is not installed: {_INSTALL}") from None
     try:
-        schema = pq.read_schema(source.file)
+        metadata = pq.read_metadata(source.file)
+        schema = metadata.schema.to_arrow_schema()
         strange = [f"{column.name} ({column.type})" for column in schema if not _is_plain(column.type)]
         if strange:
             raise refused(f"expected columns of numbers or text, got {', '.join(strange)}")
         # A word stays one word however many rows have it: a small file could name a large one a million times.
         words = [column.name for column in schema if _is_text(column.type)]
-        file = pq.ParquetFile(source.file, read_dictionary=words)
-        size = max(_unpacked(file.metadata), file.metadata.num_rows * len(schema) * _LEAST_BYTES)
+        file = pq.ParquetFile(source.file, metadata=metadata, read_dictionary=words)
+        size = max(_unpacked(metadata), metadata.num_rows * len(schema) * _LEAST_BYTES)
         if size > limit_mib * 2**20:
             raise refused(
                 f"unpacked it has {size / 2**20:,.0f} MiB; expected at most {limit_mib} MiB: thin it or split it"
