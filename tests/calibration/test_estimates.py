@@ -33,11 +33,15 @@ def test_a_correction_is_identified_minus_nominal(rehearsal):
         assert estimate.correction == pytest.approx(estimate.identified - estimate.nominal, abs=1e-15)
 
 
-def test_what_was_not_free_is_fixed_and_certain(rehearsal):
+def test_what_was_not_estimated_keeps_its_prior_unless_it_is_fixed(rehearsal):
     campaign, _, result = rehearsal
     free = {freedom.parameter for freedom in campaign.freedoms}
     for estimate in result.estimates:
-        assert (estimate.source == "fixed") == (estimate.name not in free)
+        if estimate.name in result.priors:
+            assert (estimate.source, estimate.correction) == ("prior", 0.0)
+            assert estimate.std == result.priors[estimate.name]
+        else:
+            assert (estimate.source == "fixed") == (estimate.name not in free)
         if estimate.source == "fixed":
             assert (estimate.correction, estimate.std) == (0.0, 0.0)
 
@@ -64,5 +68,8 @@ def test_a_frame_nobody_measured_has_no_nominal_value_and_its_turns_a_deviation(
     for name in unknown:
         assert found[name].nominal is None
         assert found[name].correction is None
-        assert 0.0 < found[name].std < 1e-2
-        assert abs(found[name].identified - truth.values[name]) < 5.0 * found[name].std + 1e-9
+        assert 0.0 < found[name].conditional_std < 1e-2
+        assert found[name].conditional_std <= found[name].std
+        assert abs(found[name].identified - truth.values[name]) < 5.0 * found[name].conditional_std + 1e-9
+    # The base's turn about the first axis and that joint's zero are linearly dependent: only their sum is identified.
+    assert found["base.yaw"].source == "prior"

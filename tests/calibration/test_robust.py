@@ -40,10 +40,11 @@ def test_gross_errors_among_few_readings_are_found(seed):
     assert robust.problem.model_std == 0.0
 
 
-def test_gross_errors_that_few_readings_cannot_tell_come_with_a_warning():
+def test_gross_errors_that_few_readings_cannot_tell_are_rejected_with_the_cause_first():
     campaign, _ = rehearsed_campaign(planes=1, rows=30, seed=0, size=1.0)
     result = boresight.calibrate(spoiled(campaign, 0.4, 0)[0], Solver("least-squares"))
-    assert any("rows are grossly wrong" in said or "do not fit" in said for said in result.warnings)
+    assert not result.verdict.accepted
+    assert "something else is wrong" in result.verdict.reasons[0]
 
 
 def spoiled(campaign, share, seed):

@@ -9,9 +9,10 @@ from rehearsed import measured, rehearsed_campaign
 from boresight.calibration import Solver, calibrate
 from boresight.calibration.campaign import Freedom
 from boresight.calibration.holdout import HeldOut, by_cross_validation, summarise
+from boresight.calibration.improvement import FEWEST, improvement
 from boresight.calibration.problem import Problem
 from boresight.calibration.robust import fit
-from boresight.calibration.verdict import FEWEST_ROWS, improvement, judge
+from boresight.calibration.verdict import Evidence, judge
 
 QUICK = Solver("least-squares")
 
@@ -81,36 +82,40 @@ def test_errors_that_did_not_change_are_no_improvement():
 
 
 @pytest.fixture(scope="module")
-def good_fit():
-    return fitted(rehearsed_campaign()[0])
+def judged():
+    """The verdict on held-out errors, everything else being well."""
+    campaign = rehearsed_campaign()[0]
+    fit, accuracy = fitted(campaign), calibrate(campaign, QUICK).accuracy
+    return lambda before, after: judge(Evidence(held_out(before, after), fit, accuracy))
 
 
-def test_a_certain_fall_is_accepted_with_its_interval(good_fit):
-    verdict = judge(held_out(np.full(20, 0.01), np.full(20, 0.001)), good_fit, seed=0, uncalibrated=None)
+def test_a_certain_fall_is_accepted_with_its_interval(judged):
+    verdict = judged(np.full(20, 0.01), np.full(20, 0.001))
     assert verdict.accepted
-    assert verdict.reasons == (
+    assert verdict.reasons[0] == (
         "Held-out error fell from 10.0 mm to 1.00 mm RMS on validation rows: "
-        "what is left is 10.0% to 10.0% of it, with 95 % confidence.",
+        "what is left is 10.0% to 10.0% of it, with 95 % confidence."
     )
+    assert verdict.reasons[1].startswith("Accepted for absolute accuracy")
 
 
-def test_a_fall_that_may_be_luck_is_rejected(good_fit):
+def test_a_fall_that_may_be_luck_is_rejected(judged):
     before = np.full(20, 0.01)
     after = np.where(np.arange(20) < 10, 0.001, 0.014)
-    verdict = judge(held_out(before, after), good_fit, seed=0, uncalibrated=None)
+    verdict = judged(before, after)
     assert not verdict.accepted
-    assert "did not fall for certain" in verdict.reasons[0]
+    assert "No significant improvement" in verdict.reasons[0]
 
 
-@pytest.mark.parametrize("rows", range(1, FEWEST_ROWS))
-def test_a_handful_of_rows_that_improve_prove_nothing(good_fit, rows):
-    verdict = judge(held_out(np.full(rows, 0.01), np.full(rows, 0.001)), good_fit, seed=0, uncalibrated=None)
+@pytest.mark.parametrize("rows", range(1, FEWEST))
+def test_a_handful_of_rows_that_improve_prove_nothing(judged, rows):
+    verdict = judged(np.full(rows, 0.01), np.full(rows, 0.001))
     assert not verdict.accepted
-    assert f"{rows} held-out rows prove nothing" in verdict.reasons[0]
+    assert f"{rows} held-out configurations prove nothing" in verdict.reasons[0]
 
 
-def test_no_row_that_can_be_predicted_is_rejected(good_fit):
-    verdict = judge(held_out([np.nan] * 9, [np.nan] * 9), good_fit, seed=0, uncalibrated=None)
+def test_no_row_that_can_be_predicted_is_rejected(judged):
+    verdict = judged([np.nan] * 9, [np.nan] * 9)
     assert not verdict.accepted
     assert verdict.reasons[0].startswith("No held-out row could be predicted")
 

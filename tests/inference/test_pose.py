@@ -67,4 +67,5 @@ def test_directions_that_no_reading_sees_are_named():
     said = uncalibrated_in_words(flat.in_workspace)
     assert "position along x and y" in said
     assert "orientation about z" in said
-    assert said in flat.verdict.reasons
+    assert f"Accepted in part. {said}" in flat.verdict.reasons
+    assert flat.verdict.accepted_for == "partial"

@@ -20,14 +20,15 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from boresight.calibration.campaign import Freedom, Term
+from boresight.calibration.configurations import configurations_of
 from boresight.calibration.linear import ANGLES, KINDS, LENGTHS, Neighbourhood, neighbourhood_of
 from boresight.calibration.problem import rms
 from boresight.calibration.robust import Fit, continued
 from boresight.units import in_millimetres
 
 FOLDS, REPEATS = 10, 3
-FEWEST_ROWS = 20
-"""Fewer rows than this in use prove nothing about what was left out."""
+FEWEST = 20
+"""Fewer configurations than this in use prove nothing about what was left out."""
 
 CONFIDENT = 1.645
 """Standard errors by which the mean advantage must exceed zero: 95 % confidence, one-sided. At 1.0, an arm that
@@ -37,10 +38,6 @@ none."""
 TAILS = 5.0
 """Freedom of Student's distribution by which a row's error counts. By plain squares, the few rows that real arms get
 badly wrong decide: of 20 campaigns of 60 rows of a real IRB 120 that gravity bends, 11 found it, by this 15."""
-
-SAME_M = 1e-2
-"""Configurations nearer than this in every joint [rad or m] are one: they are left out together, or a repeated pose
-would vouch for itself."""
 
 MATERIAL = 0.005
 """What is added must lower the root mean square of held-out errors by this share at least: a little that is certain
@@ -99,11 +96,15 @@ def go_beyond(fit: Fit, terms: tuple[Term, ...], learn: bool, seed: int) -> tupl
         learn: whether the geometry's own standard deviations are to be learned.
         seed: of the assignment of rows to folds.
     """
-    if not terms or fit.problem.model_std == 0.0 or np.count_nonzero(fit.kept) < FEWEST_ROWS:
+    if not terms or fit.problem.model_std == 0.0 or _configurations(fit) < FEWEST:
         return fit, None
     trials, chosen = _tried(neighbourhood_of(fit, terms, learn), terms, seed)
     further, learned = fitted_with(fit, chosen, learn)
     return further, Beyond(trials, chosen, learned)
+
+
+def _configurations(fit: Fit) -> int:
+    return int(configurations_of(fit.problem.readings.joints[fit.kept]).max(initial=-1)) + 1
 
 
 def fitted_with(fit: Fit, terms: tuple[Term, ...], learn: bool) -> tuple[Fit, dict[str, float]]:
@@ -124,7 +125,8 @@ def _tried(near: Neighbourhood, terms: tuple[Term, ...], seed: int) -> tuple[tup
     """Returns every trial, geometry alone first, and what is chosen: the best single term, then one more if it pays."""
     tries: list[tuple[Term, ...]] = [(), *((term,) for term in terms), *([terms] if len(terms) > 1 else [])]
     squared = _held_out(near, tries, seed)
-    loss = {each: np.mean(np.log1p(squared[each] / TAILS), axis=0) for each in tries}
+    own = configurations_of(near.joints)
+    loss = {each: np.bincount(own, np.mean(np.log1p(squared[each] / TAILS), axis=0)) for each in tries}
     trials = tuple(
         Trial(each, _rms_m(near, squared[each]), _advantage(loss[()], loss[each]) if each else 0.0) for each in tries
     )
@@ -158,14 +160,13 @@ def _held_out(
 
 def _folds(joints: Float[np.ndarray, "rows joints"], seed: int, repeat: int) -> Int[np.ndarray, "rows"]:
     """Returns the fold of every row, rows of one configuration in one."""
-    _, pose = np.unique(np.round(joints / SAME_M), axis=0, return_inverse=True)
+    configuration = configurations_of(joints)
     random = np.random.Generator(np.random.Philox(np.random.SeedSequence((seed, repeat))))
-    order = random.permutation(int(pose.max()) + 1)
-    return order[pose.ravel()] % FOLDS
+    return random.permutation(int(configuration.max()) + 1)[configuration] % FOLDS
 
 
-def _advantage(first: Float[np.ndarray, "rows"], second: Float[np.ndarray, "rows"]) -> float:
-    """Returns by how many standard errors the second's mean loss is below the first's, row against row."""
+def _advantage(first: Float[np.ndarray, "configurations"], second: Float[np.ndarray, "configurations"]) -> float:
+    """Returns by how many standard errors the second's mean loss is below the first's, by configurations."""
     gain = first - second
     error = float(np.std(gain, ddof=1)) / np.sqrt(len(gain))
     return float(np.mean(gain)) / error if error > 0.0 else 0.0

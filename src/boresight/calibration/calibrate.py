@@ -9,26 +9,33 @@ import numpy as np
 from boresight.calibration.beyond import Beyond, beyond_in_words, go_beyond
 from boresight.calibration.by_sensor import errors_by_sensor
 from boresight.calibration.campaign import Campaign
+from boresight.calibration.complete_model import complete_model
+from boresight.calibration.encoder_noise import with_joint_noise
 from boresight.calibration.estimates import estimates_of
+from boresight.calibration.expected_gain import expected_gain
 from boresight.calibration.frames import find_frames
 from boresight.calibration.freedom import freedoms_of
+from boresight.calibration.gross import MOST_LEFT_OUT, beyond_help, grossly_off, share_left_out
 from boresight.calibration.holdout import by_cross_validation, on_validation_rows, row_sizes, summarise
-from boresight.calibration.jumps import find_jumps
 from boresight.calibration.left_out import left_out, left_out_in_words
+from boresight.calibration.missing import find_missing
+from boresight.calibration.model_error import model_error
+from boresight.calibration.noise_size import noise_size
 from boresight.calibration.outliers import find_outliers
+from boresight.calibration.priors import assumed, unestimated
 from boresight.calibration.problem import Problem
 from boresight.calibration.result import Result, Unseen
 from boresight.calibration.robust import Fit, check_noise
+from boresight.calibration.sensitivities import sensitivities, sensitivities_in_words
 from boresight.calibration.solve import Progress, Solution, Solver, Step, continued_by, solve, unheard
 from boresight.calibration.thinning import thinned
-from boresight.calibration.verdict import LOUD, judge
+from boresight.calibration.verdict import LOUD, Evidence, judge
 from boresight.errors import InputError
 from boresight.inference import (
     identify_directions,
     movements_of,
-    pose_uncertainty,
     spread_configurations,
-    uncalibrated_in_words,
+    tool_accuracy,
     unseen_in_words,
 )
 from boresight.sensing import Cell
@@ -60,55 +67,78 @@ def calibrate(
     Raises:
         InputError: there are no readings, or nothing to estimate.
     """
-    solver = solver or Solver()
+    try:
+        with np.errstate(all="ignore"):  # what is not finite is told as such, in words
+            return _calibrated(campaign, solver or Solver(), on_progress, on_step)
+    except np.linalg.LinAlgError:
+        raise InputError(
+            f"{campaign.name}: the readings are so far from the model that least squares cannot be solved; check the "
+            "units of lengths and angles, the joint columns, and which target each row names"
+        ) from None
+
+
+def _calibrated(campaign: Campaign, solver: Solver, on_progress: Progress | None, on_step: Step) -> Result:
     readings = campaign.readings
     if readings is None or not len(readings):
         raise InputError(f"{campaign.name}: a calibration needs readings; give `observations:` in the campaign")
     if not readings.measured:
         raise InputError(f"{campaign.name}: there are configurations but no readings; measure them, then calibrate")
-    on_step("finding the frames")
+    on_step("frames")
     nominal = find_frames(campaign.cell, readings, campaign.unknown, solver.seed)
     nominal = nominal if campaign.gravity is None else nominal.under(campaign.gravity)
+    readings = with_joint_noise(nominal, readings, campaign.joint_noise_std)
+    campaign = replace(campaign, readings=readings)
     freedoms = freedoms_of(campaign, nominal)
     if not freedoms:
         raise InputError(f"{campaign.name}: every parameter is fixed, so there is nothing to calibrate")
     geometric = solve(Problem(nominal, readings, freedoms), solver, on_progress, on_step=on_step)
-    on_step("looking beyond geometry")
+    on_step("non-geometric terms")
     solution, beyond = _beyond(campaign, geometric, solver.seed)
     problem, x = solution.fit.problem, solution.fit.x
     nominal = problem.cell
     identified = problem.fitted(x)
-    on_step("asking what the rows can know")
+    on_step("identifiability")
     found = identify_directions(problem.names, problem.seen(x), problem.scale)
     moves = movements_of(problem.cell, readings.joints, readings.target, problem.names, problem.corrections(x))
-    covariance = problem.covariance(x)
-    on_step("judging by held-out rows")
+    others = unestimated(campaign, nominal, problem.freedoms)
+    known = complete_model(solution.fit, others, noise_size(solution.fit))
+    covariance = known.free_covariance
+    on_step("held-out rows")
     if campaign.validation is not None:
-        held_out = on_validation_rows(nominal, identified, campaign.validation)
+        held_out = on_validation_rows(solution.fit, campaign.validation)
     else:
         held_out = by_cross_validation(solution.fit, solver.seed)
-    on_step("telling how certain the tool is")
+    on_step("pose uncertainty")
     spread = spread_configurations(identified, WORKSPACE_CONFIGURATIONS)
-    in_workspace = pose_uncertainty(identified, problem.names, covariance, spread)
+    tool = replace(known.moments, model_std=model_error(solution.fit, held_out, campaign.validation))
+    accuracy = tool_accuracy(identified, tool, spread)
+    in_workspace = accuracy.absolute.pose
     errors = {"before": problem.errors(np.zeros(len(x))), "after": problem.errors(x)}
     asked = readings if campaign.validation is None else campaign.validation
-    on_step("looking for jumps")
-    jumps = find_jumps(solution.fit)
+    on_step("what explains the residuals")
+    missing = find_missing(solution.fit, campaign, nominal, accuracy, solver.seed)
+    assumptions = sensitivities(solution.fit, known, spread, accuracy.absolute.median)
     unseen = tuple(Unseen(each.parameters, each.words) for each in unseen_in_words(found, problem.scale, moves))
+    verdict = judge(
+        Evidence(
+            held_out=held_out,
+            fit=solution.fit,
+            accuracy=accuracy,
+            gain=expected_gain(identified, known, x, spread),
+            explanations=missing.explanations,
+            explained=missing.explained,
+            alternatives=missing.alternatives,
+            assumptions=sensitivities_in_words(assumptions),
+            beyond=beyond.chosen if beyond is not None else (),
+            seed=solver.seed,
+        )
+    )
     return Result(
         name=campaign.name,
         cell=identified,
         nominal=nominal,
-        verdict=judge(
-            held_out,
-            solution.fit,
-            solver.seed,
-            uncalibrated_in_words(in_workspace) if unseen else None,
-            beyond.chosen if beyond is not None else (),
-        ),
-        estimates=estimates_of(
-            problem, identified, covariance, replace(campaign.cell, arm=nominal.arm), campaign.unknown
-        ),
+        verdict=verdict,
+        estimates=estimates_of(problem, identified, known, replace(campaign.cell, arm=nominal.arm), campaign.unknown),
         free=len(problem.names),
         rank=found.rank,
         unseen=unseen,
@@ -126,11 +156,21 @@ def calibrate(
         solver=solver,
         covariance=covariance,
         free_names=problem.names,
-        at_rows=pose_uncertainty(identified, problem.names, covariance, asked.joints[thinned(asked)]),
+        at_rows=tool_accuracy(identified, tool, asked.joints[thinned(asked)]).absolute.pose,
+        accuracy=accuracy,
+        assumed=assumed(campaign, nominal),
+        priors=others,
+        explanations=missing.explanations,
+        alternatives=missing.alternatives,
+        sensitivities=assumptions,
         in_workspace=in_workspace,
         set_aside=campaign.set_aside,
-        warnings=campaign.warnings + _warnings(solution.fit) + tuple(jump.words for jump in jumps),
-        jumps=jumps,
+        warnings=(
+            *campaign.warnings,
+            *_warnings(solution.fit),
+            *(words for words in missing.words if words not in verdict.reasons),
+        ),
+        jumps=missing.jumps,
         notes=(
             *campaign.notes,
             *_notes(campaign, identified, solver),
@@ -144,7 +184,9 @@ def calibrate(
 
 def _beyond(campaign: Campaign, solution: Solution, seed: int) -> tuple[Solution, Beyond | None]:
     """Returns the solution with what held-out rows ask for beyond geometry, and what was tried."""
-    found, beyond = go_beyond(solution.fit, campaign.terms, campaign.freedoms is None, seed)
+    if beyond_help(solution.fit):
+        return solution, None
+    found, beyond = go_beyond(solution.fit, campaign.terms, campaign.chosen_by_default, seed)
     return (solution if found is solution.fit else continued_by(solution, found)), beyond
 
 
@@ -173,12 +215,17 @@ def _warnings(fit: Fit) -> tuple[str, ...]:
             "Take more readings, or free fewer parameters."
         )
     left_out = int(np.count_nonzero(~fit.kept))
-    if left_out > MANY_LEFT_OUT * len(fit.kept):
+    if MANY_LEFT_OUT < share_left_out(fit) <= MOST_LEFT_OUT:
         said.append(
             f"{left_out} of {len(fit.kept)} rows do not fit with the others and were left out. With so many, the rest "
             "may be wrong together: check target names, planes, units and the ranger before you use this result."
         )
-    if values < FEW * free and problem.model_std > 0.0 and (ratio := check_noise(fit).ratio) > LOUD:
+    if (
+        not grossly_off(fit)
+        and values < FEW * free
+        and problem.model_std > 0.0
+        and (ratio := check_noise(fit).ratio) > LOUD
+    ):
         said.append(
             f"Residuals are {ratio:.0f}x the stated noise, and {values} readings for {free} free parameters cannot "
             "tell whether the arm moves so or rows are grossly wrong. Take more readings before you use this result."

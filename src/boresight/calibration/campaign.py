@@ -71,8 +71,12 @@ class Campaign:
         cell: the nominal cell; frames that are unknown stand at the identity.
         readings: the rows to calibrate with; None, or without values, where a campaign is only planned.
         validation: rows held out; None to judge by cross-validation.
-        freedoms: what to estimate; None frees what the data can see.
+        freedoms: what to estimate; None estimates what the readings can identify.
+        beside_default: whether `freedoms` come beside what the readings can identify, rather than in its place.
         fixed: parameters held at nominal, whatever `freedoms` says.
+        priors: standard deviation [m, rad or 1] of what is believed of parameters, where the files state it: of the
+            sensor's bias, a plane's offset, a link length; whether they are estimated or not.
+        joint_noise_std: standard deviation [rad or m] of each joint reading; empty where none is stated.
         beyond: what may be added to the geometry where held-out readings ask for it; None for everything, unless
             `freedoms` says what to estimate.
         gravity: its direction in the world; None where it is the arm's own, along its base's -z unless the robot's
@@ -91,7 +95,10 @@ class Campaign:
     readings: Readings | None = None
     validation: Readings | None = None
     freedoms: tuple[Freedom, ...] | None = None
+    beside_default: bool = False
     fixed: frozenset[str] = frozenset()
+    priors: Mapping[str, float] = field(default_factory=dict)
+    joint_noise_std: tuple[float, ...] = ()
     beyond: tuple[Term, ...] | None = None
     gravity: tuple[float, float, float] | None = None
     weightless: bool = False
@@ -103,7 +110,12 @@ class Campaign:
     robot_file: RobotFile | None = None
 
     @property
+    def chosen_by_default(self) -> bool:
+        """Whether the readings decide which link parameters are estimated."""
+        return self.freedoms is None or self.beside_default
+
+    @property
     def terms(self) -> tuple[Term, ...]:
         """What may be added to the geometry."""
-        asked = self.beyond if self.beyond is not None else TERMS if self.freedoms is None else ()
+        asked = self.beyond if self.beyond is not None else TERMS if self.chosen_by_default else ()
         return tuple(term for term in asked if not (term == "gravity" and self.weightless))

@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from boresight.arm import is_further
+from boresight.calibration.complete_model import CompleteModel
 from boresight.calibration.problem import Problem
 from boresight.calibration.result import Estimate
 from boresight.geometry import Frame
@@ -19,12 +20,12 @@ from boresight.units import UNIT_OF
 _TURNS = FRAME_NUMBERS[3:]
 
 
+MOSTLY = 0.5
+"""A value is determined by priors of what was not estimated where these make this share of its variance."""
+
+
 def estimates_of(
-    problem: Problem,
-    identified: Cell,
-    covariance: Float[np.ndarray, "free free"],
-    believed: Cell,
-    unknown: frozenset[str],
+    problem: Problem, identified: Cell, known: CompleteModel, believed: Cell, unknown: frozenset[str]
 ) -> tuple[Estimate, ...]:
     """Returns an estimate of every parameter that is free or belongs to the arm or a target.
 
@@ -36,15 +37,22 @@ def estimates_of(
     Args:
         problem: what was fitted.
         identified: the cell found.
-        covariance: posterior covariance of the free corrections.
+        known: what is known of the estimated parameters and the others.
         believed: the cell as the files gave it.
         unknown: parameters the files called unknown.
     """
-    std = dict(zip(problem.names, np.sqrt(np.diag(covariance)), strict=True))
-    source = dict(zip(problem.names, sources(np.sqrt(np.diag(covariance)), problem.believed_std), strict=True))
+    std, alone = (
+        dict(zip(problem.names, np.sqrt(np.diag(each)), strict=True))
+        for each in (known.free_covariance, known.conditional_covariance)
+    )
+    source = dict(zip(problem.names, sources(np.array(list(alone.values())), problem.believed_std), strict=True))
+    shared = {name for name in problem.names if alone[name] ** 2 < MOSTLY * std[name] ** 2}
+    source |= dict.fromkeys(shared, "prior")
+    source |= {name: "gauge" for name, held in zip(known.names, known.in_gauge, strict=True) if held}
     frames = {"base": identified.base, **identified.mounts}
     for name, frame in frames.items():
-        std |= _rpy_std(name, frame, problem.names, covariance)
+        std |= _rpy_std(name, frame, problem.names, known.free_covariance)
+        alone |= _rpy_std(name, frame, problem.names, known.conditional_covariance)
     listed = []
     for parameter in problem.cell.parameters:
         owner = parameter.name.split(".")[0]
@@ -59,8 +67,9 @@ def estimates_of(
             nominal=given,
             identified=found,
             correction=found - given,
-            std=float(std.get(parameter.name, 0.0)),
-            source=source.get(parameter.name, "fixed"),
+            std=float(std.get(parameter.name, known.prior_of.get(parameter.name, 0.0))),
+            conditional_std=float(alone.get(parameter.name, 0.0)),
+            source=source.get(parameter.name, "prior" if parameter.name in known.prior_of else "fixed"),
         )
         listed.append(replace(estimate, nominal=None, correction=None) if parameter.name in unknown else estimate)
     return tuple(listed)

@@ -14,7 +14,15 @@ from boresight.units import Quantity
 
 USUAL_WITHIN: dict[Quantity, float] = {"angle": 0.05, "length": 0.02, "number": 0.02}
 """Half-width of the search [rad, m, 1] where the campaign names no parameters: several times the errors that
-assembly, transport and temperature leave on arms of a metre or two."""
+assembly, transport and temperature leave on arms of up to `USUAL_REACH`."""
+
+USUAL_REACH = 2.0
+"""Reach [m] beyond which errors of lengths grow with the arm."""
+
+
+def usual_within(arm: Arm) -> dict[Quantity, float]:
+    """Returns the half-width of the search [rad, m, 1] for an arm: lengths of 10 m may be off by five times more."""
+    return {**USUAL_WITHIN, "length": USUAL_WITHIN["length"] * max(1.0, arm.reach / USUAL_REACH)}
 
 
 def freedoms_of(campaign: Campaign, cell: Cell) -> tuple[Freedom, ...]:
@@ -25,11 +33,12 @@ def freedoms_of(campaign: Campaign, cell: Cell) -> tuple[Freedom, ...]:
         cell: its cell, with unknown frames where they were found.
     """
     frames = tuple(Freedom(name, None, None) for name in cell.index if name in campaign.unknown - campaign.fixed)
-    if campaign.freedoms is not None:
-        asked = {f.parameter: f for f in campaign.freedoms if f.parameter not in campaign.fixed | campaign.unknown}
-        return frames + tuple(asked[name] for name in cell.index if name in asked)
+    asked = {f.parameter: f for f in campaign.freedoms or () if f.parameter not in campaign.fixed | campaign.unknown}
+    first = frames + tuple(asked[name] for name in cell.index if name in asked)
+    if not campaign.chosen_by_default:
+        return first
     assert campaign.readings is not None
-    return _visible(cell, campaign.readings, frames, campaign.fixed)
+    return _visible(cell, campaign.readings, first, campaign)
 
 
 def link_candidates(arm: Arm) -> list[str]:
@@ -58,13 +67,17 @@ def _parallel(arm: Arm) -> list[bool]:
     ]
 
 
-def _visible(cell: Cell, readings: Readings, frames: tuple[Freedom, ...], fixed: frozenset[str]) -> tuple[Freedom, ...]:
-    """Returns the frames and every link parameter that shows something the ones before it do not."""
-    usual = {p.name: USUAL_WITHIN[p.quantity] for p in cell.parameters}
-    links = [name for name in link_candidates(cell.arm) if name not in fixed]
-    names = [freedom.parameter for freedom in frames] + links
+def _visible(cell: Cell, readings: Readings, first: tuple[Freedom, ...], campaign: Campaign) -> tuple[Freedom, ...]:
+    """Returns what comes first and every link parameter that shows something the ones before it do not."""
+    within = usual_within(cell.arm)
+    usual = {p.name: within[p.quantity] for p in cell.parameters}
+    before = [freedom.parameter for freedom in first]
+    links = [name for name in link_candidates(cell.arm) if name not in campaign.fixed and name not in before]
+    names = before + links
     seen = seen_by(cell, readings, names)
     chosen = {names[i] for i in select_visible(seen * [usual[name] for name in names], list(range(len(names))))}
-    return frames + tuple(
-        Freedom(name, usual[name], usual[name] / math.sqrt(3.0)) for name in cell.index if name in chosen & set(links)
+    return first + tuple(
+        Freedom(name, usual[name], campaign.priors.get(name, usual[name] / math.sqrt(3.0)))
+        for name in cell.index
+        if name in chosen & set(links)
     )

@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
-from boresight.calibration.problem import rms
+from boresight.calibration.configurations import configurations_of
+from boresight.calibration.problem import Problem, rms
 from boresight.calibration.result import ErrorSummary, Residuals
 from boresight.calibration.robust import Fit, refine
+from boresight.inference import posterior_root
 from boresight.sensing import Cell, Readings
 from boresight.sensing.linear import model_of
 
@@ -24,11 +26,16 @@ class HeldOut:
         method: how the rows were held out.
         before: (rows,) error sizes [m], geometry nominal and unknown frames fitted; NaN where a beam misses.
         after: (rows,) error sizes [m], identified.
+        configuration: (rows,) number of the configuration a row was taken in; each row's its own where None.
+        expected: (rows,) mean square [m²] that each row's error should have: of the readings' noise, of the model's own
+            error, and of parameters as they are known from the other rows; None where not told.
     """
 
     method: str
     before: Float[np.ndarray, "rows"]
     after: Float[np.ndarray, "rows"]
+    configuration: Int[np.ndarray, "rows"] | None = None
+    expected: Float[np.ndarray, "rows"] | None = None
 
     @property
     def residuals(self) -> Residuals:
@@ -36,13 +43,16 @@ class HeldOut:
         return summarise(self.method, self.before, self.after)
 
 
-def on_validation_rows(nominal: Cell, identified: Cell, rows: Readings) -> HeldOut:
+def on_validation_rows(fit: Fit, rows: Readings) -> HeldOut:
     """Returns the errors on rows kept for validation."""
-    return HeldOut("validation rows", error_sizes(nominal, rows), error_sizes(identified, rows))
+    nominal, identified = fit.problem.cell, fit.problem.fitted(fit.x)
+    before, after = error_sizes(nominal, rows), error_sizes(identified, rows)
+    expected = _expected(fit.problem, fit.x, rows)
+    return HeldOut("validation rows", before, after, configurations_of(rows.joints), expected)
 
 
 def by_cross_validation(fit: Fit, seed: int) -> HeldOut:
-    """Returns each used row's error under a fit to the other folds' rows.
+    """Returns each used row's error under a fit to the other folds' rows, rows of one configuration in one fold.
 
     Every fold's fit starts at the final one, which decides the optimum's neighbourhood but not the optimum.
     Rows that the final fit left out as gross errors are not held out either: they say nothing about the arm.
@@ -52,17 +62,32 @@ def by_cross_validation(fit: Fit, seed: int) -> HeldOut:
         seed: of the assignment of rows to folds.
     """
     problem, kept = fit.problem, np.flatnonzero(fit.kept)
-    count = len(kept)
-    order = np.random.Generator(np.random.Philox(seed)).permutation(count)
-    fold = np.empty(count, dtype=int)
-    fold[order] = np.arange(count) % min(FOLDS, count)
-    before, after = row_sizes(problem.errors(np.zeros(len(fit.x))))[kept], np.empty(count)
+    configuration = configurations_of(problem.readings.joints[kept])
+    count = int(configuration.max(initial=-1)) + 1
+    dealt = np.empty(count, dtype=int)
+    dealt[np.random.Generator(np.random.Philox(seed)).permutation(count)] = np.arange(count) % min(FOLDS, count)
+    fold = dealt[configuration]
+    before, after = row_sizes(problem.errors(np.zeros(len(fit.x))))[kept], np.empty(len(kept))
+    expected = np.empty(len(kept))
     for number in range(min(FOLDS, count)):
         weight = problem.row_weight.copy()
         weight[kept[fold == number]] = 0.0
-        trained = problem.weighed(weight, problem.model_std)
-        after[fold == number] = row_sizes(problem.errors(refine(trained, fit.x).best))[kept[fold == number]]
-    return HeldOut(f"{FOLDS}-fold cross-validation", before, after)
+        trained, held = problem.weighed(weight, problem.model_std), kept[fold == number]
+        best = refine(trained, fit.x).best
+        after[fold == number] = row_sizes(problem.errors(best))[held]
+        expected[fold == number] = _expected(trained, best, problem.readings.chosen(held))
+    return HeldOut(f"{FOLDS}-fold cross-validation", before, after, configuration, expected)
+
+
+def _expected(problem: Problem, x: Float[np.ndarray, "free"], rows: Readings) -> Float[np.ndarray, "rows"]:
+    """Returns the mean square [m²] that errors of rows should have that a fit did not see."""
+    root = posterior_root(problem.seen(x), problem.prior_std)
+    noise = np.sum(np.where(rows.read, rows.std**2 + problem.model_std**2, 0.0), axis=1)
+    own = np.empty(len(rows))
+    for block in model_of(problem.cell, rows, problem.names).blocks(x, np.where(rows.read, 1.0, 0.0), 0.0):
+        spread = np.sum((root.T @ block.columns[:-1]) ** 2, axis=0)
+        own[block.rows] = spread.reshape(-1, rows.values.shape[1]).sum(axis=1)
+    return noise + own
 
 
 def error_sizes(cell: Cell, rows: Readings) -> Float[np.ndarray, "rows"]:

@@ -183,7 +183,7 @@ def _arm_rank(cell: Cell, readings: Readings) -> int:
 
     Several markers count as one tool of known shape.
     """
-    slopes = seen_by(cell, readings, [parameter.name for parameter in cell.parameters])
+    slopes = seen_by(cell, readings, cell.moving)
     own = {name: [cell.index[f"{name}.{number}"] for number in FRAME_NUMBERS] for name in cell.mounts}
     on_flange = sum(slopes[:, own[name]] @ _with_flange(frame) for name, frame in cell.mounts.items())
     shared = [name for name in cell.moving if name.partition(".")[0] not in cell.mounts]

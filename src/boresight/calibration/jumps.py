@@ -196,6 +196,7 @@ class _Linear:
         errors: (rows, channels) measured minus predicted over the standard deviations, 0 where there is none.
         std: (rows, channels) standard deviation of each value [m].
         count: how many of the parameters are steps.
+        distinct: share of the values that repeat no other's configuration: what a model leaves there, they share.
     """
 
     slopes: Float[np.ndarray, "rows channels parameters"]
@@ -203,6 +204,7 @@ class _Linear:
     errors: Float[np.ndarray, "rows channels"]
     std: Float[np.ndarray, "rows channels"]
     count: int = 0
+    distinct: float = 1.0
 
     @classmethod
     def of(cls, fit: Fit) -> _Linear:
@@ -211,7 +213,8 @@ class _Linear:
         errors = problem.errors(fit.x)
         std = np.where(np.isfinite(errors), std, np.inf)
         slopes = slopes_of(problem.model, fit.x, problem.readings) / std[:, :, None]
-        return cls(slopes, 1.0 / problem.prior_std**2, np.nan_to_num(-errors) / std, std)
+        distinct = float(np.mean(1.0 / problem.repeats)) if problem.model_std > 0.0 else 1.0
+        return cls(slopes, 1.0 / problem.prior_std**2, np.nan_to_num(-errors) / std, std, 0, distinct)
 
     def with_steps(self, blocks: list[_Block]) -> _Linear:
         """Returns the fit with a step on each of some blocks."""
@@ -219,7 +222,7 @@ class _Linear:
         for place, block in enumerate(blocks):
             steps[block.rows, block.series.channel, place] = 1.0 / self.std[block.rows, block.series.channel]
         slopes, prior = np.concatenate([self.slopes, steps], axis=2), np.append(self.prior, np.zeros(len(blocks)))
-        return _Linear(slopes, prior, self.errors, self.std, len(blocks))
+        return _Linear(slopes, prior, self.errors, self.std, len(blocks), self.distinct)
 
     @cached_property
     def read(self) -> Bool[np.ndarray, "rows channels"]:
@@ -250,7 +253,7 @@ class _Linear:
     def freedom(self) -> float:
         """Values less the parameters that they decide."""
         decided = float(np.einsum("rcp,pq,rcq->", self.slopes, self.inverse, self.slopes, optimize=True))
-        return max(float(np.count_nonzero(self.read)) - decided, 1.0)
+        return max(self.distinct * float(np.count_nonzero(self.read)) - decided, 1.0)
 
     @property
     def spread(self) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 
 from boresight.arm import Arm
 from boresight.calibration.campaign import Campaign, Freedom
-from boresight.calibration.freedom import USUAL_WITHIN, link_candidates
+from boresight.calibration.freedom import link_candidates, usual_within
 from boresight.inference import listed
 from boresight.sensing import Cell, Readings
 from boresight.sensing.linear import seen_by
@@ -41,7 +41,7 @@ def left_out(campaign: Campaign, cell: Cell, freedoms: tuple[Freedom, ...]) -> t
         cell: its cell, with unknown frames where they were found.
         freedoms: the choice.
     """
-    if campaign.freedoms is not None:
+    if not campaign.chosen_by_default:
         return ()
     assert campaign.readings is not None
     free = [freedom.parameter for freedom in freedoms]
@@ -76,7 +76,8 @@ def _explained(cell: Cell, readings: Readings, unseen: list[str], free: list[str
     if not unseen:
         return []
     quantity = {parameter.name: parameter.quantity for parameter in cell.parameters}
-    flat = seen_by(cell, readings, names) * [USUAL_WITHIN[quantity[name]] for name in names]
+    within = usual_within(cell.arm)
+    flat = seen_by(cell, readings, names) * [within[quantity[name]] for name in names]
     chosen, rest = flat[:, : len(free)], flat[:, len(free) :]
     largest = float(np.linalg.norm(flat, axis=0).max(initial=0.0))
     parts = np.linalg.lstsq(chosen, rest, rcond=None)[0] if free else np.empty((0, len(unseen)))

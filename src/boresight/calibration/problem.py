@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from boresight.calibration.campaign import Freedom
+from boresight.calibration.configurations import repeats_of
 from boresight.calibration.plain_cost import PlainCost
 from boresight.calibration.thinning import thinned
 from boresight.inference import posterior_covariance, posterior_root
@@ -56,9 +57,18 @@ class Problem:
     def std(self) -> Float[np.ndarray, "rows channels"]:
         """Standard deviation of each residual [m]: the sensor's noise and the model's own, in squares.
 
+        The model's own counts once a configuration, however many rows were taken there.
+
         Infinite where a row's sensor has no such channel, so that it has no say in anything.
         """
-        return np.hypot(self.readings.std, self.model_std)
+        if self.model_std == 0.0:
+            return self.readings.std
+        return np.hypot(self.readings.std, self.model_std * np.sqrt(self.repeats)[:, None])
+
+    @cached_property
+    def repeats(self) -> Float[np.ndarray, " rows"]:
+        """How many rows share each row's configuration: what the model leaves unexplained there, they share too."""
+        return repeats_of(self.readings.joints).astype(float)
 
     @cached_property
     def row_weight(self) -> Float[np.ndarray, " rows"]:
@@ -184,6 +194,8 @@ class Problem:
         """Returns the same problem with other rows' weights and another standard deviation [m] of the model's own."""
         problem = replace(self, row_weights=row_weight, model_std=model_std)
         problem.__dict__["model"] = self.model  # weights do not change it, and a robust fit weighs every round
+        if "repeats" in self.__dict__:
+            problem.__dict__["repeats"] = self.repeats
         return problem
 
     def on(self, rows: Float[np.ndarray, "some"]) -> Problem:

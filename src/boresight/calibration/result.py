@@ -5,17 +5,23 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
 
+from boresight.calibration.alternatives import Alternative
 from boresight.calibration.beyond import Beyond
 from boresight.calibration.campaign import RobotFile, SetAside
+from boresight.calibration.explanations import Explanation
 from boresight.calibration.jumps import Jump
 from boresight.calibration.robust import NoiseCheck
+from boresight.calibration.sensitivities import Sensitivity
 from boresight.calibration.solve import Solution, Solver
-from boresight.inference import PoseUncertainty
+from boresight.inference import Accuracy, PoseUncertainty
 from boresight.sensing import Cell, Readings
+
+AcceptedFor = Literal["absolute", "relative", "partial"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,8 +34,11 @@ class Estimate:
         nominal: the value the files gave; None where they said it was unknown.
         identified: the value found.
         correction: identified minus nominal.
-        std: standard deviation of the identified value; 0 where it was held.
-        source: whether the value comes from the `data`, from the `prior`, or was `fixed`.
+        std: standard deviation of the identified value, whatever else may be wrong; of a parameter that was not
+            estimated the prior's; 0 where it is taken as known.
+        conditional_std: the same if all parameters that were not estimated are as stated; 0 where it was not either.
+        source: whether the value comes from the `data`, from the `prior`, is `fixed`, or was held by convention, as a
+            `gauge`, since neither readings nor priors say anything of it.
     """
 
     name: str
@@ -39,6 +48,7 @@ class Estimate:
     correction: float | None
     std: float
     source: str
+    conditional_std: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,12 +135,15 @@ class Verdict:
     """Whether to use the result.
 
     Attributes:
-        accepted: whether held-out errors fell for certain and no search bound is active.
-        reasons: one sentence each, that a person can act on.
+        accepted: whether the corrected arm may be used.
+        reasons: one sentence each, that a person can act on; of a rejected result the cause first.
+        accepted_for: the tool's accuracy that the readings give: `absolute` in the frame of base and targets,
+            `relative` after the best rigid motion, or `partial` where neither; None where it is rejected.
     """
 
     accepted: bool
     reasons: tuple[str, ...]
+    accepted_for: AcceptedFor | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,6 +189,12 @@ class Result:
         at_rows: uncertainty of the tool's pose at the validation rows, or the calibration rows if there are none; of
             many rows at some thousands.
         in_workspace: uncertainty of the tool's pose at configurations spread within the joints' limits.
+        accuracy: absolute and relative, over the same configurations.
+        assumed: link parameters taken as known because the campaign fixes them.
+        priors: prior standard deviation [m, rad or 1] of every parameter that may be wrong and was not estimated.
+        explanations: missing effects that explain the residuals, the best first.
+        alternatives: slips that explain them: a flipped plane, a joint that counts backwards.
+        sensitivities: what is assumed and no reading can check, the weightiest first.
         set_aside: rows that were not used.
         jumps: blocks of rows that a sensor read differently, and nobody said so.
         warnings: what a person should look at.
@@ -208,6 +227,12 @@ class Result:
     free_names: tuple[str, ...]
     at_rows: PoseUncertainty
     in_workspace: PoseUncertainty
+    accuracy: Accuracy
+    assumed: tuple[str, ...]
+    priors: Mapping[str, float]
+    explanations: tuple[Explanation, ...]
+    alternatives: tuple[Alternative, ...]
+    sensitivities: tuple[Sensitivity, ...]
     set_aside: tuple[SetAside, ...]
     jumps: tuple[Jump, ...]
     warnings: tuple[str, ...]

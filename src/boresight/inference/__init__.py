@@ -1,5 +1,9 @@
 """What residuals and Jacobians say: what can be known, how certainly, and what is left unexplained."""
 
+from boresight.inference.accuracy import Accuracy as Accuracy
+from boresight.inference.accuracy import Moments as Moments
+from boresight.inference.accuracy import ToolAccuracy as ToolAccuracy
+from boresight.inference.accuracy import tool_accuracy as tool_accuracy
 from boresight.inference.excess import model_std as model_std
 from boresight.inference.hardly import HardlySeen as HardlySeen
 from boresight.inference.hardly import hardly_seen as hardly_seen

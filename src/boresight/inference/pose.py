@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float, Int
 
+from boresight.inference.coverage import ball_radius, ellipsoid_square
 from boresight.inference.words import listed
 from boresight.sensing import Cell
 
@@ -24,9 +25,6 @@ STANDS_OUT = 10.0
 
 AXES = "xyz"
 
-_CHI_SQUARE_95 = 7.814727903251179
-"""The 95 % point of chi-square with three degrees of freedom."""
-
 
 @dataclass(frozen=True)
 class PoseUncertainty:
@@ -35,10 +33,13 @@ class PoseUncertainty:
     Attributes:
         joints: (rows, joints) the configurations [rad or m].
         covariance: (rows, 6, 6) of the tool's displacement (position [m], then rotation [rad]), in the world's axes.
+        freedom: (rows,) effective degrees of freedom of the variance (Welch-Satterthwaite); infinite where the size of
+            the readings' noise is known.
     """
 
     joints: Float[np.ndarray, "rows joints"]
     covariance: Float[np.ndarray, "rows 6 6"]
+    freedom: Float[np.ndarray, "rows"]
 
     @cached_property
     def position_std(self) -> Float[np.ndarray, "rows"]:
@@ -52,13 +53,13 @@ class PoseUncertainty:
 
     @cached_property
     def position_95(self) -> Float[np.ndarray, "rows"]:
-        """Half the longest axis of each position's 95 % ellipsoid [m]."""
-        return _longest_95(self.covariance[:, :3, :3])
+        """Radius of the ball that holds each true position with 95 % probability [m]."""
+        return ball_radius(self.covariance[:, :3, :3], self.freedom)
 
     @cached_property
     def orientation_95(self) -> Float[np.ndarray, "rows"]:
-        """Half the longest axis of each orientation's 95 % ellipsoid [rad]."""
-        return _longest_95(self.covariance[:, 3:, 3:])
+        """The same of each orientation: the largest turn [rad]."""
+        return ball_radius(self.covariance[:, 3:, 3:], self.freedom)
 
     def holds(self, displacement: Float[np.ndarray, "rows 3"]) -> np.ndarray:
         """Returns whether each position error [m] lies inside its 95 % ellipsoid.
@@ -67,7 +68,7 @@ class PoseUncertainty:
         """
         floor = 1e-18 * np.eye(3)
         solved = np.linalg.solve(self.covariance[:, :3, :3] + floor, displacement[:, :, None])[:, :, 0]
-        return np.einsum("ri,ri->r", displacement, solved) <= _CHI_SQUARE_95
+        return np.einsum("ri,ri->r", displacement, solved) <= ellipsoid_square(self.freedom)
 
 
 def pose_uncertainty(
@@ -76,25 +77,40 @@ def pose_uncertainty(
     covariance: Float[np.ndarray, "free free"],
     joints: Float[np.ndarray, "rows joints"],
 ) -> PoseUncertainty:
-    """Returns the uncertainty of the sensor frame's pose in the world.
-
-    A parameter's error moves the tool by its twist (v, w): the position by v + w × p, the orientation by w.
-    Errors of targets do not move the tool.
+    """Returns the uncertainty of the sensor frame's pose in the world, the size of the readings' noise being known.
 
     Args:
         cell: the identified cell.
-        names: the free parameters.
+        names: the parameters that may be wrong.
         covariance: their posterior covariance.
         joints: configurations [rad or m].
+    """
+    slopes, columns = tool_slopes(cell, names, joints)
+    part = covariance[np.ix_(columns, columns)]
+    return PoseUncertainty(joints, carried(slopes, part), np.full(len(joints), np.inf))
+
+
+def tool_slopes(
+    cell: Cell, names: tuple[str, ...], joints: Float[np.ndarray, "rows joints"]
+) -> tuple[Float[np.ndarray, "rows moving 6"], list[int]]:
+    """Returns the tool's displacement by a unit of each parameter that moves it, and those parameters' places.
+
+    A parameter's error moves the tool by its twist (v, w): the position by v + w × p, the orientation by w.
+    Errors of targets do not move the tool.
     """
     motion = cell.chain.linearise(joints)
     place = {name: column for column, name in enumerate(cell.chain.parameters)}
     moving = [i for i, name in enumerate(names) if name in place]
     twists = motion.twists[:, [place[names[i]] for i in moving]]
     shifts = twists[:, :, :3] + np.cross(twists[:, :, 3:], motion.poses[:, None, :3, 3])
-    slopes = np.concatenate([shifts, twists[:, :, 3:]], axis=2)
-    part = covariance[np.ix_(moving, moving)]
-    return PoseUncertainty(joints, np.einsum("rpi,pq,rqj->rij", slopes, part, slopes, optimize=True))
+    return np.concatenate([shifts, twists[:, :, 3:]], axis=2), moving
+
+
+def carried(
+    slopes: Float[np.ndarray, "rows moving 6"], covariance: Float[np.ndarray, "moving moving"]
+) -> Float[np.ndarray, "rows 6 6"]:
+    """Returns the covariance of the tool's displacement from that of the parameters that move it."""
+    return np.swapaxes(slopes, 1, 2) @ covariance @ slopes
 
 
 def uncalibrated_in_words(uncertainty: PoseUncertainty) -> str:
@@ -131,10 +147,6 @@ def spread_configurations(cell: Cell, rows: int) -> Float[np.ndarray, "rows join
     primes = _primes(len(limits))
     unit = np.stack([_radical_inverse(np.arange(1, rows + 1), prime) for prime in primes], axis=1)
     return limits[:, 0] + unit * (limits[:, 1] - limits[:, 0])
-
-
-def _longest_95(covariance: Float[np.ndarray, "rows 3 3"]) -> Float[np.ndarray, "rows"]:
-    return np.sqrt(np.maximum(np.linalg.eigvalsh(covariance)[:, -1], 0.0) * _CHI_SQUARE_95)
 
 
 def _primes(count: int) -> list[int]:

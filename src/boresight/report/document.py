@@ -10,10 +10,11 @@ import numpy as np
 
 from boresight.arm.serial import corrected_chain
 from boresight.calibration.beyond import Beyond
+from boresight.calibration.explanations import Explanation
 from boresight.calibration.result import ErrorSummary, Residuals, Result
 from boresight.calibration.solve import Stage
 from boresight.geometry import Frame, Plane
-from boresight.inference import PoseUncertainty
+from boresight.inference import PoseUncertainty, ToolAccuracy
 from boresight.inference.pose import COVERAGE
 from boresight.sensing import Target
 
@@ -33,7 +34,35 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
         "name": result.name,
         "version": version,
         "seed": result.solver.seed,
-        "verdict": {"accepted": result.verdict.accepted, "reasons": list(result.verdict.reasons)},
+        "verdict": {
+            "accepted": result.verdict.accepted,
+            "accepted_for": result.verdict.accepted_for,
+            "reasons": list(result.verdict.reasons),
+        },
+        "accuracy": {name: _accuracy(getattr(result.accuracy, name)) for name in ("absolute", "relative")},
+        "explanations": [_explanation(each) for each in result.explanations],
+        "alternatives": [
+            {
+                "effect": each.effect,
+                "words": each.words,
+                "ratio_before": _number(each.ratio_before),
+                "ratio_after": _number(each.ratio_after),
+            }
+            for each in result.alternatives
+        ],
+        "sensitivities": [
+            {
+                "effect": each.effect,
+                "amount": each.amount,
+                "unit": each.unit,
+                "tool_shift": each.shift_m,
+                "tool_shift_unit": "m",
+                "key": each.key,
+            }
+            for each in result.sensitivities
+        ],
+        "assumed": list(result.assumed),
+        "priors": dict(result.priors),
         "residuals": {
             "calibration": _residuals(result.calibration),
             "validation": _residuals(result.validation),
@@ -58,6 +87,7 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
                 "identified": estimate.identified,
                 "correction": estimate.correction,
                 "std": estimate.std,
+                "conditional_std": estimate.conditional_std,
                 "source": estimate.source,
             }
             for estimate in result.estimates
@@ -145,6 +175,37 @@ def _residuals(residuals: Residuals) -> dict[str, Any]:
 
 def _summary(summary: ErrorSummary) -> dict[str, float | None]:
     return {"rms": _number(summary.rms), "mean": _number(summary.mean), "max": _number(summary.max)}
+
+
+def _accuracy(accuracy: ToolAccuracy) -> dict[str, Any]:
+    """Returns one accuracy of the tool: 95 % radii of the position, None where readings do not determine it."""
+    return {
+        "unit": "m",
+        "determined": accuracy.determined,
+        "radius_95": {
+            "median": _number(accuracy.median),
+            "max": _number(float(np.max(accuracy.position_radius))),
+            "before": accuracy.prior,
+        },
+        "share_from_readings": _number(accuracy.noise_share),
+    }
+
+
+def _explanation(found: Explanation) -> dict[str, Any]:
+    return {
+        "effect": found.effect,
+        "parameters": list(found.parameters),
+        "value": found.value,
+        "std": found.std,
+        "unit": found.unit,
+        "numbers": found.numbers,
+        "ratio_before": _number(found.ratio_before),
+        "ratio_after": _number(found.ratio_after),
+        "left_out_before": found.left_out_before,
+        "left_out_after": found.left_out_after,
+        "tool_shift": _number(found.tool_m),
+        "tool_shift_unit": "m",
+    }
 
 
 def _pose(uncertainty: PoseUncertainty) -> dict[str, Any]:

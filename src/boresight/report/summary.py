@@ -79,9 +79,12 @@ def _error_cells(residuals: Residuals) -> tuple[str, ...]:
 
 def _facts(result: Result) -> list[RenderableType]:
     facts = [_seen(result), _known(result), _searched(result)]
-    prior = [e.name for e in result.estimates if e.source == "prior"]
+    prior = [e.name for e in result.estimates if e.source == "prior" and e.name not in result.priors]
+    gauge = [e.name for e in result.estimates if e.source == "gauge"]
+    if gauge:
+        facts.append(f"Gauge, held where it was: {_some(gauge)}; no reading and no number below depends on it.")
     if prior:
-        facts.append(f"Mostly prior: {_some(prior)} moved little because the data say little about them.")
+        facts.append(f"Prior-dominated: {_some(prior)}; the readings say little about them.")
     if result.outliers:
         facts.append(f"Outliers: {_some([_outlier(each) for each in result.outliers])} do not fit with the other rows.")
     if result.set_aside:
@@ -97,20 +100,26 @@ def _outlier(outlier: Outlier) -> str:
 
 def _seen(result: Result) -> str:
     if not result.unseen:
-        return f"Seen: all {result.free} free parameters."
+        held = f"; assumed known: {_some(list(result.assumed))}" if result.assumed else ""
+        others = f"; not estimated, prior counted: {_some(list(result.priors))}" if result.priors else ""
+        return f"Identifiable: rank {result.rank} of {result.free}{others}{held}."
     words = "; ".join(unseen.words for unseen in result.unseen[:_DIRECTIONS])
     more = len(result.unseen) - _DIRECTIONS
     others = f" (and {more} more, in result.json)" if more > 0 else ""
-    return f"Not seen: {result.free - result.rank} of {result.free} directions. {words}{others}."
+    return f"Not identifiable: {result.free - result.rank} of {result.free} directions. {words}{others}."
 
 
 def _known(result: Result) -> str:
-    pose = result.in_workspace
-    position, orientation = np.median(pose.position_95), np.median(pose.orientation_95)
-    return (
-        f"Tool pose over the work space, 95 %: within {in_millimetres(float(position))} and "
-        f"{1e3 * float(orientation):.3g} mrad (median)."
-    )
+    absolute, relative = result.accuracy.absolute, result.accuracy.relative
+    said = [
+        f"{_within(each.median)} and {1e3 * float(np.median(each.pose.orientation_95)):.3g} mrad {name}"
+        for name, each in (("absolute", absolute), ("relative", relative))
+    ]
+    return f"Tool pose over the work space, 95 %, median: {'; '.join(said)}."
+
+
+def _within(radius: float) -> str:
+    return in_millimetres(radius) if math.isfinite(radius) else "not determined"
 
 
 def _searched(result: Result) -> str:

@@ -71,11 +71,29 @@ def convergence_csv(result: Result) -> str:
 
 
 def pose_uncertainty_csv(result: Result) -> str:
-    """Returns `pose-uncertainty.csv`: how certain the calibrated tool's pose is over the work space."""
-    found = result.in_workspace
+    """Returns `pose-uncertainty.csv`: how certain the calibrated tool's pose is over the work space.
+
+    The absolute accuracy first, then the relative one, after the best rigid motion; a radius that the readings do not
+    determine is written as inf.
+    """
+    absolute, relative = result.accuracy.absolute, result.accuracy.relative
     header = ["position_std_m", "position_95_m", "orientation_std_rad", "orientation_95_rad"]
-    sizes = (found.position_std, found.position_95, found.orientation_std, found.orientation_95)
+    header += ["relative_position_95_m", "relative_orientation_95_rad"]
+    found = absolute.pose
+    sizes = (
+        found.position_std,
+        _written(absolute.position_radius),
+        found.orientation_std,
+        found.orientation_95,
+        _written(relative.position_radius),
+        relative.pose.orientation_95,
+    )
     return _csv([*result.cell.arm.joint_names, *header], _rows_of((*found.joints.T, *sizes)))
+
+
+def _written(radius: Float[np.ndarray, "rows"]) -> np.ndarray:
+    """Returns radii as they are written, with a word where there is none."""
+    return radius if np.isfinite(radius).all() else np.array(["inf"] * len(radius), dtype=object)
 
 
 def _csv(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:

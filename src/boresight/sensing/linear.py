@@ -161,7 +161,8 @@ class ReferenceModel:
 
 def model_of(cell: Cell, readings: Readings, free: Sequence[str]) -> CompiledModel | ReferenceModel:
     """Returns the fastest model of a cell's readings."""
-    return (CompiledModel if is_compiled(cell) else ReferenceModel)(cell, readings, free)
+    compiled = is_compiled(cell) and not _scaled_trackers(cell) & {*free, *_wrong_scales(cell)}
+    return (CompiledModel if compiled else ReferenceModel)(cell, readings, free)
 
 
 def slopes_of(
@@ -200,6 +201,20 @@ def is_compiled(cell: Cell) -> bool:
         and plain == [(channel, 1.0) for channel in range(len(sensor.channels))]
         and all(isinstance(target, Plane) for target in cell.targets.values())
     )
+
+
+def _scaled_trackers(cell: Cell) -> set[str]:
+    """Returns the scales of sensors that read offsets, which compiled loops take to be right."""
+    return {
+        f"{name}.scale"
+        for name, sensor in cell.sensors.items()
+        if "scale" in sensor.numbers and any(readout.kind == OFFSET for readout in sensor.readouts)
+    }
+
+
+def _wrong_scales(cell: Cell) -> set[str]:
+    """Returns the scales that are not what they should be."""
+    return {f"{name}.scale" for name, sensor in cell.sensors.items() if getattr(sensor, "scale", 0.0)}
 
 
 def _columns(cell: Cell, readings: Readings) -> Columns:

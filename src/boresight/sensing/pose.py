@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import ClassVar
 
@@ -30,17 +30,19 @@ class Pose:
         noise_std: standard deviation of one reading of each coordinate [m].
         noise_angle_std: standard deviation of one reading of the orientation about each axis [rad].
         repeats: readings averaged in a row.
+        scale: relative error of its unit of length: (x, y, z) are read times 1 + scale.
     """
 
     type: ClassVar[str] = "pose"
     channels: ClassVar[tuple[str, ...]] = ("x", "y", "z", "turn_x", "turn_y", "turn_z")
     columns: ClassVar[tuple[str, ...]] = ("x", "y", "z", "qw", "qx", "qy", "qz")
     aims_at: ClassVar[TargetKind] = None
-    numbers: ClassVar[Mapping[str, Quantity]] = MappingProxyType({})
+    numbers: ClassVar[Mapping[str, Quantity]] = MappingProxyType({"scale": "number"})
 
     noise_std: float
     noise_angle_std: float
     repeats: int = 1
+    scale: float = 0.0
 
     @property
     def lever(self) -> float:
@@ -60,23 +62,24 @@ class Pose:
         return shifts + tuple(Readout(COMPONENT + k, 3 + k, axis, half_square) for axis in range(3) for k in range(3))
 
     def adjusted(self, corrections: Mapping[str, float]) -> Pose:
-        """Returns the sensor itself: it has no numbers of its own."""
-        return self
+        """Returns the tracker with a correction added to its `scale`."""
+        return replace(self, scale=self.scale + corrections.get("scale", 0.0))
 
     def predict(
         self, poses: Float[np.ndarray, "rows 4 4"], target: Target | None, reference: Reference
     ) -> Float[np.ndarray, "rows 6"]:
         """Returns the tool's position and its turn away from the measured orientation [m]."""
-        return np.hstack([poses[:, :3, 3], self.lever * _turn(poses, reference)])
+        return np.hstack([(1.0 + self.scale) * poses[:, :3, 3], self.lever * _turn(poses, reference)])
 
     def respond(self, poses: Float[np.ndarray, "rows 4 4"], target: Target | None, reference: Reference) -> Response:
         """Returns positions and turns with their derivatives: a twist (v, w) turns R_measured' R by R_measured' w."""
         p, turn = poses[:, :3, 3], _turn(poses, reference)
         by_twist = np.zeros((len(p), 6, 6))
-        by_twist[:, :3] = shifts_by_twist(p)
+        by_twist[:, :3] = (1.0 + self.scale) * shifts_by_twist(p)
         by_twist[:, 3:, 3:] = self.lever * vector_slope(turn) @ np.swapaxes(reference[:, :3, :3], 1, 2)
-        values = np.hstack([p, self.lever * turn])
-        return Response(values, by_twist, np.zeros((len(p), 6, 0)), np.zeros((len(p), 6, 0)))
+        by_sensor = np.hstack([p, np.zeros_like(p)])[:, :, None]
+        values = np.hstack([(1.0 + self.scale) * p, self.lever * turn])
+        return Response(values, by_twist, np.zeros((len(p), 6, 0)), by_sensor)
 
 
 def _turn(poses: Float[np.ndarray, "rows 4 4"], reference: Reference) -> Float[np.ndarray, "rows 3"]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import ClassVar
 
@@ -17,11 +17,12 @@ from boresight.units import Quantity
 
 @dataclass(frozen=True, slots=True)
 class Position:
-    """The coordinates (x, y, z) [m] of the tool frame's origin in the world.
+    """The coordinates (x, y, z) [m] of the tool frame's origin in the world, times 1 + scale.
 
     Attributes:
         noise_std: standard deviation of one reading of each coordinate [m].
         repeats: readings averaged in a row.
+        scale: relative error of its unit of length, as a tracker has from the temperature of the air.
     """
 
     type: ClassVar[str] = "position"
@@ -30,25 +31,26 @@ class Position:
     aims_at: ClassVar[TargetKind] = None
     readouts: ClassVar[tuple[Readout, ...]] = tuple(Readout(OFFSET, axis, axis) for axis in range(3))
     levers: ClassVar[tuple[None, ...]] = (None, None, None)
-    numbers: ClassVar[Mapping[str, Quantity]] = MappingProxyType({})
+    numbers: ClassVar[Mapping[str, Quantity]] = MappingProxyType({"scale": "number"})
 
     noise_std: float
     repeats: int = 1
+    scale: float = 0.0
 
     def adjusted(self, corrections: Mapping[str, float]) -> Position:
-        """Returns the sensor itself: it has no numbers of its own."""
-        return self
+        """Returns the tracker with a correction added to its `scale`."""
+        return replace(self, scale=self.scale + corrections.get("scale", 0.0))
 
     def predict(
         self, poses: Float[np.ndarray, "rows 4 4"], target: Target | None, reference: Reference
     ) -> Float[np.ndarray, "rows 3"]:
         """Returns the tool's position [m] in the world."""
-        return poses[:, :3, 3]
+        return (1.0 + self.scale) * poses[:, :3, 3]
 
     def respond(self, poses: Float[np.ndarray, "rows 4 4"], target: Target | None, reference: Reference) -> Response:
         """Returns the positions and their derivatives: a twist (v, w) moves p by v + w × p."""
-        p = poses[:, :3, 3]
-        return Response(p, shifts_by_twist(p), np.zeros((len(p), 3, 0)), np.zeros((len(p), 3, 0)))
+        p, gain = poses[:, :3, 3], 1.0 + self.scale
+        return Response(gain * p, gain * shifts_by_twist(p), np.zeros((len(p), 3, 0)), p[:, :, None])
 
 
 def shifts_by_twist(p: Float[np.ndarray, "rows 3"]) -> Float[np.ndarray, "rows 3 6"]:

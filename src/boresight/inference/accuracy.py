@@ -1,0 +1,127 @@
+"""The tool's accuracy over the work space, twice: absolute, and relative.
+
+*Absolute* is where the tool is in the frame in which base, planes and points are stated. *Relative* is what is left
+after the best rigid motion of all its positions at once: errors of how the whole arm stands (the first joint's zero,
+the base) do not count, errors of its shape do. For a space robot the paper calls the former minor, since cameras or
+the target give them back.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from boresight.inference.coverage import effective_freedom
+from boresight.inference.pose import PoseUncertainty, carried, tool_slopes
+from boresight.sensing import Cell
+
+MOVED = 1e-6
+"""A gauge direction of unit length that moves the tool by less than this share of its own size does not move it."""
+
+
+@dataclass(frozen=True)
+class Moments:
+    """What is known of the parameters that move the tool.
+
+    Attributes:
+        names: of the parameters.
+        covariance: of estimate minus truth.
+        noise: the part of it that rests on the size of the readings' noise.
+        prior: before any reading.
+        gauge: (directions, parameters) what is neither read nor believed.
+        freedom: degrees of freedom with which the size of the noise is known.
+        model_std: standard deviation [m] of what the model leaves unexplained, along each axis.
+    """
+
+    names: tuple[str, ...]
+    covariance: Float[np.ndarray, "parameters parameters"]
+    noise: Float[np.ndarray, "parameters parameters"]
+    prior: Float[np.ndarray, "parameters parameters"]
+    gauge: Float[np.ndarray, "directions parameters"]
+    freedom: float
+    model_std: float
+
+
+@dataclass(frozen=True)
+class ToolAccuracy:
+    """One of the two accuracies.
+
+    Attributes:
+        pose: uncertainty of the tool's pose at each configuration, combined (Type A and Type B).
+        prior: median 95 % radius of the position before any reading [m].
+        determined: whether the positions depend on no gauge direction.
+        noise_share: median share of the position's variance that comes from the readings, not from priors.
+    """
+
+    pose: PoseUncertainty
+    prior: float
+    determined: bool
+    noise_share: float = 1.0
+
+    @property
+    def position_radius(self) -> Float[np.ndarray, "rows"]:
+        """Radius [m] that holds each true position with 95 % probability; infinite where it is not determined."""
+        return self.pose.position_95 if self.determined else np.full(len(self.pose.joints), np.inf)
+
+    @property
+    def median(self) -> float:
+        """Median over the configurations of `position_radius` [m]."""
+        return float(np.median(self.position_radius))
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """What may be expected of the tool."""
+
+    absolute: ToolAccuracy
+    relative: ToolAccuracy
+
+
+def tool_accuracy(cell: Cell, known: Moments, joints: Float[np.ndarray, "rows joints"]) -> Accuracy:
+    """Returns the tool's absolute and relative accuracy at some configurations.
+
+    Args:
+        cell: the identified cell.
+        known: what is known of its parameters.
+        joints: configurations [rad or m].
+    """
+    slopes, columns = tool_slopes(cell, known.names, joints)
+    positions = cell.poses(joints)[:, :3, 3]
+    reach = max(float(np.ptp(positions, axis=0).max(initial=0.0)), 1e-3)
+    of_model = np.diag([known.model_std**2] * 3 + [(known.model_std / reach) ** 2] * 3)
+
+    def of(slopes: Float[np.ndarray, "rows moving 6"]) -> ToolAccuracy:
+        part = np.ix_(columns, columns)
+        covariance = carried(slopes, known.covariance[part]) + of_model
+        noise = carried(slopes, known.noise[part]) + of_model
+        total, estimated = (np.trace(each[:, :3, :3], axis1=1, axis2=2) for each in (covariance, noise))
+        pose = PoseUncertainty(joints, covariance, effective_freedom(total, estimated, known.freedom))
+        before = PoseUncertainty(joints, carried(slopes, known.prior[part]), np.full(len(joints), np.inf))
+        drift = np.einsum("rpi,gp->rgi", slopes[:, :, :3], known.gauge[:, columns])
+        moved = float(np.sqrt(np.mean(drift**2))) if drift.size else 0.0
+        share = float(np.median(estimated / np.maximum(total, 1e-300)))
+        return ToolAccuracy(pose, float(np.median(before.position_95)), moved <= MOVED, share)
+
+    return Accuracy(of(slopes), of(without_rigid_motion(slopes, positions)))
+
+
+def without_rigid_motion(
+    slopes: Float[np.ndarray, "rows moving 6"], positions: Float[np.ndarray, "rows 3"]
+) -> Float[np.ndarray, "rows moving 6"]:
+    """Returns displacements of the tool less the rigid motion that fits those of its positions best.
+
+    Args:
+        slopes: displacement (position [m], rotation [rad]) by a unit of each parameter.
+        positions: of the tool [m].
+    """
+    rows, moving = slopes.shape[:2]
+    rigid = np.zeros((rows, 6, 6))
+    rigid[:, :3, :3] = rigid[:, 3:, 3:] = np.eye(3)
+    x, y, z = positions.T
+    zero = np.zeros(rows)
+    rigid[:, :3, 3:] = np.stack([zero, z, -y, -z, zero, x, y, -x, zero], axis=1).reshape(rows, 3, 3)
+    wanted = np.moveaxis(slopes[:, :, :3], 1, 2).reshape(3 * rows, moving)
+    best = np.linalg.lstsq(rigid[:, :3].reshape(3 * rows, 6), wanted, rcond=None)[0]
+    return slopes - np.swapaxes(rigid @ best, 1, 2)
