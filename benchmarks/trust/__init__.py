@@ -9,8 +9,8 @@ is accepted for absolute accuracy, after the best rigid motion where it is for r
 
 `judging.py` says what the outcomes are, `claims.py` what counts as named; the truth is how the cell stands after the
 last row. Lengths in the tables are root mean squares over the configurations, medians over the accepted runs; the
-ratio's 95 % is a percentile over them; `relative` counts runs that are accepted for relative accuracy; `before` is the
-nominal arm's true error.
+ratios' 95 % are percentiles over them; `turn` is the orientation's error in the base frame, which is not judged;
+`relative` counts runs that are accepted for relative accuracy; `before` is the nominal arm's true error.
 """
 
 from __future__ import annotations

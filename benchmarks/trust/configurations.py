@@ -53,10 +53,9 @@ def _of_plane(cells: tuple[Cell, ...], plane: int, count: int, beams: Beams, ran
     found: list[np.ndarray] = []
     for _ in range(TRIES):
         joints = anywhere(cells[0], DRAWN, random)
-        good = np.ones(DRAWN, dtype=bool)
         for cell in cells:
-            good &= _meets(cell, joints, plane, beams)
-        found += list(joints[good])
+            joints = joints[_meets(cell, joints, plane, beams)]
+        found += list(joints)
         if len(found) >= count:
             return np.array(found[:count]).reshape(count, -1)
     raise RuntimeError(f"plane {plane} is met by {len(found)} of {TRIES * DRAWN} configurations; {count} are needed")

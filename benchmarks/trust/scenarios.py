@@ -88,8 +88,10 @@ JOINTS = (
     Scenario("backlash 0.5 mrad", fault=joints.backlash(0.5e-3)),
     Scenario("joints sag", "UR-like", fault=joints.sag(5e-6, 4.0)),
     Scenario("joints sag, one plane", "UR-like", planes=1, fault=joints.sag(5e-6, 4.0)),
+    Scenario("joints sag, planes estimated", "UR-like", estimated=True, fault=joints.sag(5e-6, 4.0)),
     Scenario("joint 3 turns 0.1 % further", fault=joints.gain(3, 1e-3)),
     Scenario("gears with waves of 0.3 mrad", fault=joints.waves(0.3e-3)),
+    Scenario("gears with waves of 0.3 mrad, planes estimated", estimated=True, fault=joints.waves(0.3e-3)),
     Scenario("joint 3 counts backwards", fault=joints.counts_backwards(3)),
     Scenario("link 2 grows 0.5 mm", fault=joints.link_grows(2, 0.5e-3)),
     Scenario("zero of joint 2 moves 1 mrad half way", fault=joints.zero_moves(2, 1e-3)),
@@ -104,8 +106,8 @@ ROWS = (
     Scenario(
         "30 postures, encoder noise 0.1 mrad", rows=300, postures=30, validation=0, fault=joints.encoder_noise(1e-4)
     ),
-    Scenario("5 % of targets swapped", fault=rows.swapped_targets(0.05)),
-    Scenario("40 % of targets swapped", fault=rows.swapped_targets(0.40)),
+    Scenario("5 % of targets swapped", validation=0, fault=rows.swapped_targets(0.05)),
+    Scenario("40 % of targets swapped", validation=0, fault=rows.swapped_targets(0.40)),
     Scenario("ranges one row late", fault=rows.shifted_rows(1)),
     Scenario("8 % gross errors", validation=0, fault=rows.gross_errors(0.08)),
     Scenario("20 % gross errors", validation=0, fault=rows.gross_errors(0.20)),

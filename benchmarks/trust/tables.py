@@ -22,6 +22,7 @@ HEADER = (
     "true error, mm",
     "claimed, mm",
     "error / claimed, 95 %",
+    "turn / claimed, 95 %",
     "named",
 )
 NAMES = 3
@@ -51,7 +52,7 @@ def line_of(name: str, runs: list[Record]) -> tuple[str, ...]:
         *(str(counts[outcome] or "") for outcome in OUTCOMES),
         str(sum(run.accuracy == "relative" for run in accepted) or ""),
         *(_median_mm(accepted, each) for each in ("before", "error", "claimed")),
-        f"{np.percentile([run.ratio for run in accepted], 95):.2g}" if accepted else "",
+        *(_percentile_95(accepted, each) for each in ("ratio", "angle_ratio")),
         ", ".join(f"{each} {count}" for each, count in names.most_common(NAMES)),
     )
 
@@ -81,3 +82,7 @@ def figures_of(records: Iterable[Record]) -> tuple[Figure, ...]:
 
 def _median_mm(runs: list[Record], field: str) -> str:
     return f"{1e3 * np.median([getattr(run, field) for run in runs]):.3g}" if runs else ""
+
+
+def _percentile_95(runs: list[Record], field: str) -> str:
+    return f"{np.percentile([getattr(run, field) for run in runs], 95):.2g}" if runs else ""

@@ -14,7 +14,7 @@ def encoder_noise(std: float) -> Fault:
     """Returns joints that stand elsewhere than they read, afresh each time [rad or m]."""
     return Fault(
         ("*encoder*", "*joint noise*", "*joint_noise*"),
-        r"encoder|joint noise|joint readings|joint_noise|noise_std",
+        r"encoder|joint noise|joint readings|joint_noise",
         actual=lambda joints, random: joints + random.normal(0.0, std, joints.shape),
     )
 
@@ -22,8 +22,8 @@ def encoder_noise(std: float) -> Fault:
 def backlash(width: float) -> Fault:
     """Returns joints that stand at either end of a gap [rad or m]."""
     return Fault(
-        ("*backlash*", "*encoder*", "*joint noise*"),
-        r"backlash|encoder|joint noise|joint readings",
+        ("*backlash*", "*encoder*", "*joint noise*", "*joint_noise*"),
+        r"backlash|encoder|joint noise|joint readings|joint_noise",
         actual=lambda joints, random: joints + width * random.choice([-0.5, 0.5], joints.shape),
     )
 
@@ -83,7 +83,7 @@ def zero_moves(joint: int, amount: float) -> Fault:
     def during(cell: Cell, time: np.ndarray) -> Cell:
         return replace(cell, arm=cell.arm.corrected("theta", _of_joint(cell, joint, amount * late(time)[:, 0])))
 
-    return Fault(("step*", "*jump*", "drift*"), r"\bstep|jump|\bdrift", during=during)
+    return Fault(("step*", "*jump*", "drift*"), r"\bstep|jump|than before|\bdrift", during=during)
 
 
 def fixed_but_wrong(joint: int, number: str, amount: float) -> Fault:

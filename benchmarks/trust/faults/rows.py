@@ -36,7 +36,8 @@ def gross_errors(share: float) -> Fault:
     def rows(rows: Rows, random: np.random.Generator) -> Rows:
         wrong = _share(len(rows.values), share, random)
         amount = random.uniform(0.02, 0.4, rows.values.shape) * random.choice([-1.0, 1.0], rows.values.shape)
-        return replace(rows, values=np.abs(rows.values + amount * wrong[:, None]))
+        values = rows.values + amount * wrong[:, None]
+        return replace(rows, values=np.abs(values) if values.shape[1] == 1 else values)
 
     return Fault(("gross*",), r"left out|gross", rows=rows)
 
@@ -52,7 +53,7 @@ def clustered_errors(share: float) -> Fault:
         height = random.uniform(0.03, 0.08)
         return replace(rows, values=rows.values - height * wrong[:, None] / np.abs(rows.cosine[:, None]))
 
-    return Fault(("gross*", "step*", "*jump*"), r"left out|gross|\bstep|jump", rows=rows)
+    return Fault(("gross*", "step*", "*jump*"), r"left out|gross|\bstep|jump|than before", rows=rows)
 
 
 def in_millimetres() -> Fault:

@@ -21,7 +21,9 @@ def scale(amount: float) -> Fault:
 
 def step(amount: float) -> Fault:
     """Returns a ranger whose zero moves half way [m]."""
-    return Fault(("step*", "*jump*"), r"\bstep|jump", sensor=lambda values, time: values + amount * late(time))
+    return Fault(
+        ("step*", "*jump*"), r"\bstep|jump|than before", sensor=lambda values, time: values + amount * late(time)
+    )
 
 
 def zero_drift(amount: float) -> Fault:
