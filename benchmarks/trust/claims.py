@@ -64,7 +64,7 @@ def claims_of(result: Any) -> Claims:
     workspace = _first(result, "pose_uncertainty", "in_workspace")
     accuracy = getattr(result.verdict, "accepted_for", None) or "absolute"
     judged = getattr(getattr(result, "accuracy", None), accuracy, None) or workspace
-    joints = np.asarray(workspace.joints)
+    joints = np.asarray(getattr(judged, "pose", workspace).joints)
     poses = result.cell.poses(joints)
     return Claims(
         bool(result.verdict.accepted),

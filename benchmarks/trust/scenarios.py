@@ -50,12 +50,15 @@ PLATES = (
     Scenario("offset with the other sign", fault=plates.offset_flipped("wall_x")),
 )
 
-UNKNOWN = (
+PLACES = (
     Scenario("base unknown", "PUMA-like", unknown=("base",)),
     Scenario("base unknown, two planes", "PUMA-like", planes=2, unknown=("base",)),
     Scenario("base unknown, gantry, two planes", "gantry", planes=2, unknown=("base",)),
     Scenario("mount unknown", "PUMA-like", unknown=("mount",)),
     Scenario("base and mount unknown", "PUMA-like", unknown=FRAMES),
+    Scenario("base 3 mm and 3 mrad off", fault=plates.base_off(3e-3, 3e-3)),
+    Scenario("base 3 mm and 3 mrad off, one plane", planes=1, fault=plates.base_off(3e-3, 3e-3)),
+    Scenario("mount 3 mm and 3 mrad off", fault=plates.mount_off(3e-3, 3e-3)),
     Scenario("base and mount unknown, seven axes", "long seven axes", unknown=FRAMES),
 )
 
@@ -124,6 +127,7 @@ ROWS = (
 TRACKERS = (
     Scenario("tracker", sensor="position", unknown=FRAMES),
     Scenario("tracker, base and mount known", sensor="position"),
+    Scenario("tracker, 30 rows", sensor="position", unknown=FRAMES, rows=30),
     Scenario("tracker, 0.01 % long", sensor="position", unknown=FRAMES, fault=sensors.scale(1e-4)),
     Scenario("tracker, first axis tilted 5 mrad", sensor="position", fault=plates.base_tilted(5e-3)),
     Scenario("tracker, joints sag", "UR-like", sensor="position", unknown=FRAMES, fault=joints.sag(5e-6, 4.0)),
@@ -137,7 +141,7 @@ TRACKERS = (
 FAMILIES = {
     "Arms": ARMS,
     "Plates": PLATES,
-    "Frames that nobody has measured": UNKNOWN,
+    "Base and mount": PLACES,
     "Rangers": SENSORS,
     "Joints and links": JOINTS,
     "Rows": ROWS,

@@ -141,10 +141,15 @@ def result(explanations=(), warnings=(), **more):
 
 def test_a_result_is_judged_by_what_it_is_accepted_for():
     assert claims.claims_of(result()).accuracy == "absolute"
-    both = {name: SimpleNamespace(position_radius=np.full(4, r)) for name, r in (("absolute", 2.0), ("relative", 3.0))}
+    seen = SimpleNamespace(joints=np.ones((4, 6)))
+    both = {
+        name: SimpleNamespace(position_radius=np.full(4, r), pose=seen)
+        for name, r in (("absolute", 2.0), ("relative", 3.0))
+    }
     told = claims.claims_of(result(accuracy=SimpleNamespace(**both), verdict={"accepted_for": "relative"}))
     assert told.accuracy == "relative"
     assert np.all(told.radius == 3.0)
+    assert np.all(told.joints == 1.0)
 
 
 def test_a_cause_is_named_among_the_first_three_or_in_words():

@@ -62,10 +62,30 @@ def _stated_plane(name: str, change: Callable[[Plane], Plane]) -> Fault:
     )
 
 
+def base_off(length: float, angle: float) -> Fault:
+    """Returns an arm that stands elsewhere than its base is said to, each number by a draw of this size [m, rad]."""
+
+    def truth(cell: Cell, random: np.random.Generator) -> Cell:
+        off = frame(tuple(random.normal(0.0, length, 3)), tuple(random.normal(0.0, angle, 3)))
+        return replace(cell, base=cell.base @ off)
+
+    return Fault(("base", "base.*"), r"\bbase\b", truth=truth)
+
+
+def mount_off(length: float, angle: float) -> Fault:
+    """Returns a sensor that sits elsewhere than its mount is said to, each number by a draw of this size [m, rad]."""
+
+    def truth(cell: Cell, random: np.random.Generator) -> Cell:
+        off = frame(tuple(random.normal(0.0, length, 3)), tuple(random.normal(0.0, angle, 3)))
+        return replace(cell, mount=cell.mount @ off)
+
+    return Fault(("mount", "mount.*"), r"\bmount\b", truth=truth)
+
+
 def base_tilted(angle: float) -> Fault:
     """Returns a first axis that is tilted against the frame that base is stated in [rad]."""
     return Fault(
-        ("base", "base.rpy", "base.*"),
+        ("base", "base.*"),
         r"\bbase\b",
         truth=lambda cell, random: replace(cell, base=cell.base @ frame(rpy=(angle, 0.7 * angle, 0.0))),
     )
