@@ -32,8 +32,8 @@ def main() -> None:
     parser.add_argument("--gpu", action="store_true", help="speed on an NVIDIA card instead of the processor")
     trust = parser.add_argument_group("trust", "with --scenarios or --seeds, nothing is written")
     trust.add_argument("--scenarios", metavar="GLOB", help='names that match: "*plane*"; `|` stands between several')
-    trust.add_argument("--seeds", type=int, metavar="N", help="campaigns of each scenario; 20 by default")
-    trust.add_argument("--workers", type=int, metavar="W", help="processes; all cores by default")
+    trust.add_argument("--seeds", type=_count, metavar="N", help="campaigns of each scenario; 20 by default")
+    trust.add_argument("--workers", type=_count, metavar="W", help="processes; all cores by default")
     trust.add_argument("--records", type=Path, metavar="FILE", help="runs are kept here, and not run again")
     asked = parser.parse_args()
     own = {name: value for name in OF_TRUST if (value := getattr(asked, name)) is not None}
@@ -53,6 +53,12 @@ def main() -> None:
     if not asked.quick and not {"scenarios", "seeds"} & own.keys():
         report.write()
     print(json.dumps(report.as_json(), indent=1) if asked.json else report.as_markdown())
+
+
+def _count(text: str) -> int:
+    if not text.isascii() or not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"expected a whole number above 0, got {text}")
+    return int(text)
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ Row = tuple[str, float, float, float, float, tuple[float, float]]
 def table(*rows: Row) -> Arm:
     """Returns an arm from rows in degrees and metres."""
     types = "".join(row[0] for row in rows)
-    theta, d, a, alpha = (np.array([float(row[k]) for row in rows]) for k in (1, 2, 3, 4))
+    theta, d, a, alpha = np.array([row[1:5] for row in rows], dtype=float).T
     limits = np.array([np.deg2rad(row[5]) if row[0] == "r" else row[5] for row in rows])
     return Arm(types, np.deg2rad(theta), d, a, np.deg2rad(alpha), np.zeros(len(rows)), limits)
 

@@ -27,7 +27,9 @@ class Beams:
     cosine: tuple[float, float] = (0.4, 1.01)
 
 
-def measured(cells: tuple[Cell, ...], count: int, beams: Beams, random: np.random.Generator):
+def measured(
+    cells: tuple[Cell, ...], count: int, beams: Beams, random: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
     """Returns (count, joints) configurations and (count,) planes, taken in turn, that every cell can measure.
 
     Raises:
@@ -49,7 +51,7 @@ def anywhere(cell: Cell, count: int, random: np.random.Generator) -> np.ndarray:
     return random.uniform(low, high, (count, cell.arm.count))
 
 
-def _of_plane(cells: tuple[Cell, ...], plane: int, count: int, beams: Beams, random: np.random.Generator):
+def _of_plane(cells: tuple[Cell, ...], plane: int, count: int, beams: Beams, random: np.random.Generator) -> np.ndarray:
     found: list[np.ndarray] = []
     for _ in range(TRIES):
         joints = anywhere(cells[0], DRAWN, random)

@@ -77,8 +77,8 @@ def link_frames(arm: Arm, joints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.stack(rotations, axis=1), np.stack(origins, axis=1)
 
 
-def about(axis: str, angle: np.ndarray) -> np.ndarray:
-    """Returns (rows, 3, 3) rotations about a coordinate axis by (rows,) angles [rad]."""
+def about(axis: str, angle: np.ndarray | float) -> np.ndarray:
+    """Returns (..., 3, 3) rotations about a coordinate axis by (...) angles [rad]."""
     angle = np.asarray(angle, dtype=float)
     k = "xyz".index(axis)
     i, j = (k + 1) % 3, (k + 2) % 3
@@ -90,11 +90,13 @@ def about(axis: str, angle: np.ndarray) -> np.ndarray:
     return turn
 
 
-def frame(xyz: tuple[float, float, float] = (0.0, 0.0, 0.0), rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)):
+def frame(
+    xyz: tuple[float, float, float] = (0.0, 0.0, 0.0), rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)
+) -> np.ndarray:
     """Returns (4, 4) Rz(yaw) Ry(pitch) Rx(roll) and a translation [m, rad]."""
     roll, pitch, yaw = rpy
     T = np.eye(4)
-    T[:3, :3] = about("z", np.float64(yaw)) @ about("y", np.float64(pitch)) @ about("x", np.float64(roll))
+    T[:3, :3] = about("z", yaw) @ about("y", pitch) @ about("x", roll)
     T[:3, 3] = xyz
     return T
 

@@ -20,7 +20,7 @@ from benchmarks.trust.scenarios import SCENARIOS
 
 @dataclass(frozen=True)
 class Record:
-    """What one run came to; lengths in metres, root mean squares over the configurations.
+    """What one run came to; lengths in metres, root mean squares over the configurations, None without a result.
 
     Attributes:
         scenario, seed: which run.
@@ -42,14 +42,14 @@ class Record:
     seed: int
     outcome: str
     accuracy: str = ""
-    before: float = float("nan")
-    error: float = float("nan")
-    claimed: float = float("nan")
-    ratio: float = float("nan")
-    inside: float = float("nan")
-    absolute: float = float("nan")
-    relative: float = float("nan")
-    angle_ratio: float = float("nan")
+    before: float | None = None
+    error: float | None = None
+    claimed: float | None = None
+    ratio: float | None = None
+    inside: float | None = None
+    absolute: float | None = None
+    relative: float | None = None
+    angle_ratio: float | None = None
     named: tuple[str, ...] = ()
     explanations: tuple[str, ...] = ()
     sensitivities: tuple[str, ...] = ()
