@@ -46,6 +46,9 @@ PLATES = (
     Scenario("one of three plates 2° off", fault=plates.plate_tilted("deck", TWO_DEGREES)),
     Scenario("the only plate 5 mm off", planes=1, fault=plates.plate_off("deck", 5e-3)),
     Scenario("the only plate 2° off", planes=1, fault=plates.plate_tilted("deck", TWO_DEGREES)),
+    Scenario(
+        "the only plate 2° off, estimated", planes=1, estimated=True, fault=plates.plate_tilted("deck", TWO_DEGREES)
+    ),
     Scenario("normal with the other sign", fault=plates.normal_flipped("wall_x")),
     Scenario("offset with the other sign", fault=plates.offset_flipped("wall_x")),
 )
