@@ -62,7 +62,7 @@ class Claims:
 def claims_of(result: Any) -> Claims:
     """Returns what a `Result` claims."""
     workspace = _first(result, "pose_uncertainty", "in_workspace")
-    accuracy = getattr(result.verdict, "accepted_for", None) or "absolute"
+    accuracy = "relative" if getattr(result.verdict, "accepted_for", None) == "relative" else "absolute"
     judged = getattr(getattr(result, "accuracy", None), accuracy, None) or workspace
     joints = np.asarray(getattr(judged, "pose", workspace).joints)
     poses = result.cell.poses(joints)

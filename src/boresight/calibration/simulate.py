@@ -67,8 +67,7 @@ def _widths(campaign: Campaign) -> dict[str, float]:
     quantity = {parameter.name: parameter.quantity for parameter in cell.parameters}
     widths = {name: UNKNOWN_WITHIN[quantity[name]] for name in campaign.unknown}
     widths |= dict.fromkeys(cell.offsets, OFFSETS_WITHIN)
-    if campaign.freedoms is None:
+    if campaign.chosen_by_default:
         widths |= {name: 0.2 * USUAL_WITHIN[quantity[name]] for name in link_candidates(cell.arm)}
-    else:
-        widths |= {f.parameter: f.within for f in campaign.freedoms if f.within is not None}
+    widths |= {f.parameter: f.within for f in campaign.freedoms or () if f.within is not None}
     return {name: width for name, width in widths.items() if name not in campaign.fixed}

@@ -29,9 +29,9 @@ UNLIKELY = 4.0
 LOUD = 2.0
 """Residuals this many times the stated noise are worth saying."""
 
-GIVEN, MOSTLY_READ = 0.1, 0.5
-"""The readings give an accuracy where they bring its 95 % radius down to this share of what it was before any, or where
-this share of its variance comes from them and not from priors."""
+GIVEN, MOSTLY_READ = 1.0 / 3.0, 0.5
+"""The readings give an accuracy where they bring the tool's standard deviation down to this share of what it was before
+any, in every direction, or where this share of its variance comes from them and not from priors."""
 
 _SUSPECTS = {"gears": "harmonics", "gravity": "gravity", "backlash": "", "a wrong noise_std": ""}
 """What makes an arm move in ways that geometry does not have, and the term that would model it."""
@@ -88,7 +88,7 @@ def judge(evidence: Evidence) -> Verdict:
 def accepted_for(accuracy: Accuracy) -> AcceptedFor:
     """Returns which accuracy of the tool the readings give: the absolute one, the relative one, or part of it."""
     for name, each in (("absolute", accuracy.absolute), ("relative", accuracy.relative)):
-        read = each.median <= GIVEN * each.prior or each.noise_share > MOSTLY_READ
+        read = each.remaining <= GIVEN or each.noise_share > MOSTLY_READ
         if each.determined and read:
             return "absolute" if name == "absolute" else "relative"
     return "partial"

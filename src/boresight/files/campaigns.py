@@ -17,8 +17,9 @@ from boresight.files.explaining import validated
 from boresight.files.observations import Observations, read_observations
 from boresight.files.patterns import Matcher
 from boresight.files.problems import Problems, listed
-from boresight.files.schemas import CampaignEntry, DataEntry, PointEntry
+from boresight.files.schemas import DEFAULT, CampaignEntry, DataEntry, PointEntry
 from boresight.files.sessions import ONLY, in_sessions, sessions_of, with_sessions
+from boresight.files.stated_priors import read_joint_noise, read_priors, with_flatness
 from boresight.sensing import Cell, Readings
 from boresight.units import Units
 
@@ -42,6 +43,8 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
     robot = RobotOf(document, entry, inputs)
     cell = cell_of(document, entry, robot, problems)
     choice = Choice.of(document, entry, cell, problems)
+    priors = read_priors(document, entry, cell, problems)
+    joint_noise = read_joint_noise(document, entry, cell, problems)
     data: dict[str, Observations] = {}
     for key, named in (("observations", entry.observations), ("validation", entry.validation)):
         if named is not None:
@@ -52,7 +55,7 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
         elif key == "observations" and need_readings:
             problems.add(f"{document.at(())}there are no readings; expected observations: observations.csv")
     problems.raise_if_any()
-    plain, readings = cell, {key: part.readings for key, part in data.items()}
+    plain, readings = cell, {key: with_flatness(entry, cell, part.readings) for key, part in data.items()}
     sensors = [name for name, sensor in entry.named_sensors.items() if sensor.offset_per is not None]
     if sensors:
         cell = _with_sessions(entry, plain, sensors, readings.get("observations"), problems)
@@ -66,6 +69,9 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
         readings=readings.get("observations"),
         validation=readings.get("validation"),
         freedoms=choice.freedoms,
+        beside_default=choice.beside_default,
+        priors=priors,
+        joint_noise_std=joint_noise,
         fixed=choice.fixed | robot.held,
         beyond=None if entry.beyond is None else tuple(entry.beyond),
         gravity=entry.gravity if isinstance(entry.gravity, tuple) else None,
@@ -174,6 +180,7 @@ class Choice:
     """What is estimated and what is not, with patterns written out."""
 
     freedoms: tuple[Freedom, ...] | None
+    beside_default: bool
     fixed: frozenset[str]
     notes: tuple[str, ...]
 
@@ -196,11 +203,15 @@ class Choice:
 
         fixed = {name for i, pattern in enumerate(entry.fixed) for name in reached(pattern, ("fixed", i))}
         freedoms: dict[str, Freedom] = {}
+        beside_default = False
         for i, item in enumerate(entry.estimate or ()):
+            if item.parameters == DEFAULT["parameters"]:
+                beside_default = True
+                continue
             prior = item.within / math.sqrt(3.0) if item.prior_std is None else item.prior_std
             for k, pattern in enumerate(item.parameters):
                 for name in reached(pattern, ("estimate", i, "parameters", k)):
                     scale = units.scale(quantity[name])
                     freedoms[name] = Freedom(name, item.within * scale, prior * scale)
         ordered = tuple(freedoms[name] for name in matcher.names if name in freedoms and name not in fixed)
-        return cls(None if entry.estimate is None else ordered, frozenset(fixed), tuple(notes))
+        return cls(None if entry.estimate is None else ordered, beside_default, frozenset(fixed), tuple(notes))

@@ -280,6 +280,8 @@ class SensorEntry(Entry):
     noise_std: Positive = Field(description="the standard deviation of one reading, in the length unit")
     noise_angle_std: Positive | None = None
     repeats: Annotated[int, Strict(), Field(ge=1, le=10**9)] = 1
+    bias_std: Positive | None = None
+    scale_std: Positive | None = None
     markers: Annotated[list[str], Field(min_length=1)] | None = None
     offset_per: Literal["session"] | None = None
 
@@ -291,6 +293,10 @@ class SensorEntry(Entry):
                 if self.type == "pose"
                 else f"no noise_angle_std, as a {self.type} reads no orientation"
             )
+        if self.bias_std is not None and self.type not in ("laser_ranger", "draw_wire"):
+            raise expected(f"no bias_std, as a {self.type} has no bias: only a laser_ranger or draw_wire has")
+        if self.scale_std is not None and self.type not in ("laser_ranger", "draw_wire", "position", "pose"):
+            raise expected(f"no scale_std, as a {self.type} has no unit of length of its own")
         if self.offset_per is not None and self.type not in ("laser_ranger", "draw_wire"):
             raise expected(f"no offset_per, as a {self.type} has no offset: only a laser_ranger or draw_wire has")
         return self
@@ -301,6 +307,15 @@ class FrameEntry(Entry):
 
     xyz: KnownTriple = (0.0, 0.0, 0.0)
     rpy: KnownTriple = (0.0, 0.0, 0.0)
+    xyz_std: Positive | None = None
+    rpy_std: Positive | None = None
+
+    @model_validator(mode="after")
+    def _what_is_unknown_has_no_std(self) -> FrameEntry:
+        for part in ("xyz", "rpy"):
+            if getattr(self, part) is None and getattr(self, f"{part}_std") is not None:
+                raise expected(f"no {part}_std beside {part}: unknown; state a value and its {part}_std, or neither")
+        return self
 
 
 class PlaneEntry(Entry):
@@ -309,6 +324,9 @@ class PlaneEntry(Entry):
     type: Literal["plane"] = Field(description="plane or point")
     normal: Triple = Field(description="a list of 3 numbers, a direction at right angles to the plane")
     offset: Number = Field(description="the number f of n·x + f = 0, in the length unit")
+    normal_std: Positive | None = None
+    offset_std: Positive | None = None
+    flatness: Positive | None = None
 
 
 class PointEntry(Entry):
@@ -316,6 +334,7 @@ class PointEntry(Entry):
 
     type: Literal["point"] = Field(description="point")
     position: KnownTriple = Field(description="a list of 3 numbers, or unknown")
+    position_std: Positive | None = None
 
 
 def _target_kind(value: Any) -> str:
@@ -378,6 +397,36 @@ class FreedomEntry(Entry):
     prior_std: Positive | None = None
 
 
+class PriorEntry(Entry):
+    """One line of `priors`."""
+
+    parameters: Annotated[list[str], Field(min_length=1)] = Field(description="a list of names such as j2.a or *.theta")
+    prior_std: Positive = Field(description="a number above 0, the standard deviation of what is believed of them")
+
+
+def _estimate(value: Any) -> Any:
+    """Returns the entries of `estimate`, with the word default among them as a mark."""
+    if isinstance(value, list) and "default" in value:
+        if value.count("default") > 1:
+            raise expected("default once, and entries beside it: [default, {parameters: [sensor.bias], within: 0.02}]")
+        return [DEFAULT if item == "default" else item for item in value]
+    return value
+
+
+DEFAULT: dict[str, Any] = {"parameters": ["default"], "within": 1.0}
+"""What stands for the word default in `estimate`: everything that the readings can identify."""
+
+
+def _joint_noise(value: Any) -> Any:
+    numbers = list(value.values()) if isinstance(value, dict) else [value]
+    if not numbers or not all(_is_number(each) and 0.0 < each <= LARGEST for each in numbers):
+        raise expected("a number above 0 in the angle unit, or one for each joint by name: {j1: 1e-4, slide: 2e-5}")
+    return {str(name): float(each) for name, each in value.items()} if isinstance(value, dict) else float(value)
+
+
+JointNoise = Annotated[float | dict[str, float], BeforeValidator(_joint_noise)]
+
+
 class CampaignEntry(Entry):
     """campaign.yaml."""
 
@@ -391,8 +440,10 @@ class CampaignEntry(Entry):
     targets: dict[Name, TargetEntry] = {}
     observations: Annotated[DataEntry, BeforeValidator(_data_entry)] | None = None
     validation: Annotated[DataEntry, BeforeValidator(_data_entry)] | None = None
-    estimate: list[FreedomEntry] | None = None
+    estimate: Annotated[list[FreedomEntry] | None, BeforeValidator(_estimate)] = None
     fixed: list[str] = []
+    priors: list[PriorEntry] = []
+    joint_noise_std: JointNoise | None = None
     gravity: Gravity = "level"
     beyond: Annotated[list[Term] | None, BeforeValidator(_beyond)] = None
 

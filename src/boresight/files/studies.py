@@ -109,7 +109,7 @@ def _own_bench(document: Document, entry: StudyEntry, cell: Cell, cells: tuple[C
         estimate = None if entry.estimate is None else [line for line in lines if line.parameters]
         campaign = campaign.model_copy(update={"estimate": estimate, "fixed": kept(entry.fixed)})
     choice = Choice.of(document, campaign, cell, problems)
-    return Bench(cell, _usual(cell, choice.fixed) if choice.freedoms is None else choice.freedoms)
+    return Bench(cell, _chosen(cell, choice))
 
 
 def _reaches_any(pattern: str, cells: Sequence[Cell]) -> bool:
@@ -137,15 +137,20 @@ def _bench_of_campaign(document: Document, entry: StudyEntry, problems: Problems
         )
     held = _fixed_in_all(document, ("fixed",), tuple(entry.fixed), {"": Bench(campaign.cell, ())}, problems)
     fixed = campaign.fixed.union(held.names)
-    freedoms = tuple(f for f in _freedoms(campaign) if f.parameter not in fixed)
+    freedoms = tuple(f for f in _chosen(campaign.cell, campaign) if f.parameter not in fixed)
     drawn = entry.rows is not None or entry.vary.rows is not None or campaign.readings is None
     if drawn or campaign.readings is None:
         return Bench(campaign.cell, freedoms)
     return Bench(campaign.cell, freedoms, campaign.readings.joints, campaign.readings.target)
 
 
-def _freedoms(campaign: Campaign) -> tuple[Freedom, ...]:
-    return _usual(campaign.cell, campaign.fixed) if campaign.freedoms is None else campaign.freedoms
+def _chosen(cell: Cell, choice: Choice | Campaign) -> tuple[Freedom, ...]:
+    """Returns what is estimated: what is asked for, and every link parameter where the default is."""
+    asked = choice.freedoms or ()
+    if choice.freedoms is not None and not choice.beside_default:
+        return asked
+    named = {freedom.parameter for freedom in asked}
+    return (*asked, *(freedom for freedom in _usual(cell, choice.fixed) if freedom.parameter not in named))
 
 
 def _usual(cell: Cell, fixed: frozenset[str]) -> tuple[Freedom, ...]:

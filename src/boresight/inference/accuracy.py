@@ -21,6 +21,10 @@ MOVED = 1e-6
 """A gauge direction of unit length that moves the tool by less than this share of its own size does not move it."""
 
 
+NOTHING = 1e-6
+"""Directions in which the tool's variance before any reading is below this share of the largest are known anyway."""
+
+
 @dataclass(frozen=True)
 class Moments:
     """What is known of the parameters that move the tool.
@@ -53,12 +57,15 @@ class ToolAccuracy:
         prior: median 95 % radius of the position before any reading [m].
         determined: whether the positions depend on no gauge direction.
         noise_share: median share of the position's variance that comes from the readings, not from priors.
+        remaining: of the position's standard deviation before any reading, the share that is left in the direction in
+            which the readings tell least.
     """
 
     pose: PoseUncertainty
     prior: float
     determined: bool
     noise_share: float = 1.0
+    remaining: float = 0.0
 
     @property
     def position_radius(self) -> Float[np.ndarray, "rows"]:
@@ -102,9 +109,21 @@ def tool_accuracy(cell: Cell, known: Moments, joints: Float[np.ndarray, "rows jo
         drift = np.einsum("rpi,gp->rgi", slopes[:, :, :3], known.gauge[:, columns])
         moved = float(np.sqrt(np.mean(drift**2))) if drift.size else 0.0
         share = float(np.median(estimated / np.maximum(total, 1e-300)))
-        return ToolAccuracy(pose, float(np.median(before.position_95)), moved <= MOVED, share)
+        left = _remaining(pose.covariance[:, :3, :3], before.covariance[:, :3, :3])
+        return ToolAccuracy(pose, float(np.median(before.position_95)), moved <= MOVED, share, left)
 
     return Accuracy(of(slopes), of(without_rigid_motion(slopes, positions)))
+
+
+def _remaining(after: Float[np.ndarray, "rows 3 3"], before: Float[np.ndarray, "rows 3 3"]) -> float:
+    """Returns the largest ratio of standard deviations after and before in any direction, over all configurations."""
+    mean = np.mean(before, axis=0)
+    values, directions = np.linalg.eigh(mean)
+    believed = values > NOTHING * max(float(values[-1]), 1e-300)
+    if not believed.any():
+        return 0.0
+    whiten = directions[:, believed] / np.sqrt(values[believed])
+    return float(np.sqrt(np.linalg.eigvalsh(whiten.T @ np.mean(after, axis=0) @ whiten)[-1]))
 
 
 def without_rigid_motion(
