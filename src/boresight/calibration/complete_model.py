@@ -26,6 +26,7 @@ from jaxtyping import Bool, Float
 from boresight.calibration.noise_size import NoiseSize
 from boresight.calibration.robust import Fit
 from boresight.inference import Moments
+from boresight.inference.coverage import effective_freedom, interval_factor
 from boresight.inference.posterior import posterior_root
 from boresight.sensing.linear import model_of, triangle_of
 
@@ -68,6 +69,12 @@ class CompleteModel:
     def free_covariance(self) -> Float[np.ndarray, "free free"]:
         """The covariance of the estimated parameters alone."""
         return self.covariance[: self.estimated, : self.estimated]
+
+    @property
+    def half_width_95(self) -> Float[np.ndarray, "parameters"]:
+        """Half-width of each parameter's 95 % interval, by Student's t where the noise's size was estimated."""
+        variance, noise = np.diag(self.covariance), np.diag(self.noise_covariance)
+        return interval_factor(effective_freedom(variance, noise, self.freedom)) * np.sqrt(variance)
 
     @property
     def prior_of(self) -> dict[str, float]:

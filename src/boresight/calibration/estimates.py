@@ -49,6 +49,7 @@ def estimates_of(
     shared = {name for name in problem.names if alone[name] ** 2 < MOSTLY * std[name] ** 2}
     source |= dict.fromkeys(shared, "prior")
     source |= {name: "gauge" for name, held in zip(known.names, known.in_gauge, strict=True) if held}
+    wide = dict(zip(known.names, known.half_width_95.tolist(), strict=True))
     frames = {"base": identified.base, **identified.mounts}
     for name, frame in frames.items():
         std |= _rpy_std(name, frame, problem.names, known.free_covariance)
@@ -68,6 +69,7 @@ def estimates_of(
             identified=found,
             correction=found - given,
             std=float(std.get(parameter.name, known.prior_of.get(parameter.name, 0.0))),
+            half_width_95=wide.get(parameter.name, 0.0),
             conditional_std=float(alone.get(parameter.name, 0.0)),
             source=source.get(parameter.name, "prior" if parameter.name in known.prior_of else "fixed"),
         )

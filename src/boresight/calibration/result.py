@@ -36,7 +36,8 @@ class Estimate:
         correction: identified minus nominal.
         std: standard deviation of the identified value, whatever else may be wrong; of a parameter that was not
             estimated the prior's; 0 where it is taken as known.
-        conditional_std: the same if all parameters that were not estimated are as stated; 0 where it was not either.
+        half_width_95: half-width of its 95 % interval, by Student's t where the size of the noise was estimated.
+        conditional_std: standard deviation if everything that was not estimated is as stated; 0 if it was not either.
         source: whether the value comes from the `data`, from the `prior`, is `fixed`, or was held by convention, as a
             `gauge`, since neither readings nor priors say anything of it.
     """
@@ -49,6 +50,7 @@ class Estimate:
     std: float
     source: str
     conditional_std: float = 0.0
+    half_width_95: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

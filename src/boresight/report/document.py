@@ -87,6 +87,7 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
                 "identified": estimate.identified,
                 "correction": estimate.correction,
                 "std": estimate.std,
+                "half_width_95": estimate.half_width_95,
                 "conditional_std": estimate.conditional_std,
                 "source": estimate.source,
             }
