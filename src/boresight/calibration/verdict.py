@@ -29,6 +29,10 @@ UNLIKELY = 4.0
 LOUD = 2.0
 """Residuals this many times the stated noise are worth saying."""
 
+EXPLAINED, MATERIAL = 0.7, 0.4
+"""An effect that brings residuals down to this share, and moves the tool by this share of its 95 % radius, is to be
+estimated before the result is used."""
+
 GIVEN, MOSTLY_READ = 1.0 / 3.0, 0.5
 """The readings give an accuracy where they bring the tool's standard deviation down to this share of what it was before
 any, in every direction, or where this share of its variance comes from them and not from priors."""
@@ -160,9 +164,13 @@ def _causes(evidence: Evidence, change: Improvement) -> list[str]:
 
 
 def _contradicts(found: Explanation, accuracy: Accuracy) -> bool:
-    """Returns whether an effect that explains residuals moves the tool further than it is said to be off at most."""
+    """Returns whether an effect that explains residuals moves the tool too far for a result without it to be loaded.
+
+    The radius is no measure where unexplained residuals have widened it: it grows with what the effect does.
+    """
     radius = accuracy.absolute.median if accuracy.absolute.determined else accuracy.relative.median
-    return found.tool_m > radius
+    explained = found.ratio_after < EXPLAINED * found.ratio_before
+    return found.tool_m > radius or (explained and found.tool_m > MATERIAL * radius)
 
 
 def _went(held_out: HeldOut) -> str:
