@@ -130,3 +130,9 @@ def random_corrections(rng: np.random.Generator, cell: Cell, size: float = 0.02)
 def named(cell: Cell, corrections: np.ndarray) -> dict[str, float]:
     """Returns corrections by the parameters' names."""
     return {p.name: float(c) for p, c in zip(cell.parameters, corrections, strict=True)}
+
+
+def compiled_names(cell: Cell) -> list[str]:
+    """Returns a cell's parameters but the scales of trackers, which compiled loops take to be right."""
+    scales = {f"{name}.scale" for name, sensor in cell.sensors.items() if isinstance(sensor, (Position, Pose))}
+    return [parameter.name for parameter in cell.parameters if parameter.name not in scales]

@@ -28,7 +28,7 @@ def seen_at_a_terminal(*arguments, folder):
 def test_every_step_of_a_calibration_is_told_while_it_lasts(one_plane, tmp_path):
     code, out, seen = seen_at_a_terminal("calibrate", one_plane.campaign, "--population", "10000", folder=tmp_path)
     assert code == 0
-    steps = ("reading", "evolution", "least squares", "judging by held-out rows", "writing mine-result")
+    steps = ("reading", "evolution", "least squares", "held-out rows", "pose uncertainty", "writing mine-result")
     places = [seen.index(step) for step in steps]
     assert places == sorted(places)
     assert "/500 generations, best" in seen

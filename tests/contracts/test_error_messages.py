@@ -23,7 +23,7 @@ PINNED = [
         [
             "campaign.yaml, line 4: targets.deck.type: this key is missing; expected plane or point",
             "campaign.yaml, line 4: targets.deck.typ: unknown key (did you mean type?); "
-            "expected one of type, normal, offset",
+            "expected one of type, normal, offset, normal_std, offset_std, flatness",
         ],
     ),
     (

@@ -13,14 +13,14 @@ from boresight.kernels.cuda import refining
 from boresight.kernels.programs import MISSED
 from boresight.sensing.compiled import CompiledCost, compile_program, compile_rows
 from boresight.sensing.on_card import refine_on_card
-from random_cells import CONVENTIONS, near_readings, random_arm, random_cell, random_corrections
+from random_cells import CONVENTIONS, compiled_names, near_readings, random_arm, random_cell, random_corrections
 
 SIMULATED = os.environ.get("NUMBA_ENABLE_CUDASIM") == "1"
 
 
 def problem(rng, cell, rows, share=1.0, loss=0.0):
     """Returns a cost, the same as residuals by NumPy, and a start."""
-    names = [parameter.name for parameter in cell.parameters if rng.random() < share]
+    names = [name for name in compiled_names(cell) if rng.random() < share]
     columns = [cell.index[name] for name in names]
     readings = near_readings(rng, cell, 40 * rows, 0.002)
     hits = np.flatnonzero(np.isfinite(cell.errors(readings)).all(axis=1))

@@ -55,7 +55,7 @@ def test_a_misspelt_key_names_the_nearest_one(folder, campaign_with):
         "campaign.yaml, line 4: targets.deck.normal: this key is missing; "
         "expected a list of 3 numbers, a direction at right angles to the plane",
         "campaign.yaml, line 4: targets.deck.nomral: unknown key (did you mean normal?); "
-        "expected one of type, normal, offset",
+        "expected one of type, normal, offset, normal_std, offset_std, flatness",
     )
 
 

@@ -15,6 +15,7 @@ from boresight.sensing.compiled import compile_program, compile_rows
 from random_cells import (
     CONVENTIONS,
     SENSORS,
+    compiled_names,
     mixed_cell,
     near_readings,
     random_arm,
@@ -74,7 +75,7 @@ def assert_equal_costs(rng, cell, rows, count, free):
 def test_compiled_cost_equals_numpy_with_every_parameter_free(joints, convention, sensor):
     rng = np.random.default_rng([joints, CONVENTIONS.index(convention), sensor == "position"])
     cell = random_cell(rng, planes=int(rng.integers(1, 4)), sensor=sensor, arm=random_arm(rng, joints, convention))
-    free = [parameter.name for parameter in cell.parameters]
+    free = compiled_names(cell)
     assert_equal_costs(rng, cell, rows=30, count=int(rng.integers(1, 3 * LANES)), free=free)
 
 
@@ -82,7 +83,7 @@ def test_compiled_cost_equals_numpy_with_every_parameter_free(joints, convention
 def test_compiled_cost_equals_numpy_with_some_parameters_free_in_any_order(seed):
     rng = np.random.default_rng([seed, 17])
     cell = random_cell(rng, planes=2)
-    names = [parameter.name for parameter in cell.parameters]
+    names = compiled_names(cell)
     free = [str(name) for name in rng.permutation(names)[: int(rng.integers(1, len(names)))]]
     assert_equal_costs(rng, cell, rows=20, count=int(rng.integers(1, 40)), free=free)
 
@@ -97,7 +98,7 @@ def test_compiled_cost_equals_numpy_with_joints_that_follow_and_frames_at_both_e
         joints[place] = replace(joints[place], follows=leader, ratio=float(rng.uniform(-2.0, 2.0)))
     arm = Arm("geared", tuple(joints), drawn.convention, random_frame(rng), random_frame(rng))
     cell = random_cell(rng, planes=2, arm=arm)
-    free = [parameter.name for parameter in cell.parameters]
+    free = compiled_names(cell)
     assert_equal_costs(rng, cell, rows=30, count=2 * LANES, free=free)
 
 
@@ -105,7 +106,7 @@ def test_compiled_cost_equals_numpy_with_joints_that_follow_and_frames_at_both_e
 def test_compiled_cost_equals_numpy_with_every_sensor_on_two_markers(seed):
     rng = np.random.default_rng([seed, 29])
     cell = mixed_cell(rng, random_arm(rng, 6))
-    names = [parameter.name for parameter in cell.parameters]
+    names = compiled_names(cell)
     free = [str(name) for name in rng.permutation(names)[: int(rng.integers(1, len(names)))]]
     assert_equal_costs(rng, cell, rows=60, count=50, free=free)
 
@@ -114,7 +115,7 @@ def test_compiled_cost_equals_numpy_where_corrections_outgrow_the_unit_normal():
     rng = np.random.default_rng(3)
     cell = random_cell(rng, planes=1)
     readings = near_readings(rng, cell, 20, 0.05)
-    plane = [parameter.name for parameter in cell.parameters][-3:]
+    plane = compiled_names(cell)[-3:]
     members = rng.uniform(-1.5, 1.5, (3, 50))
     weight, prior_weight = np.ones(readings.values.shape), np.zeros(3)
     costs, _ = compiled_costs(cell, readings, weight, plane, prior_weight, members)
@@ -140,7 +141,7 @@ def test_cost_of_a_member_does_not_depend_on_its_lane_or_neighbours():
     rng = np.random.default_rng(23)
     cell = random_cell(rng)
     readings = near_readings(rng, cell, 25, 0.05)
-    free = [parameter.name for parameter in cell.parameters]
+    free = compiled_names(cell)
     weight, prior_weight = np.ones(readings.values.shape), np.ones(len(free))
     members = np.array([random_corrections(rng, cell) for _ in range(70)]).T
     order = rng.permutation(70)

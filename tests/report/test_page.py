@@ -181,7 +181,11 @@ def test_unknown_nominal_value_is_a_dash_and_has_no_correction(result):
 def test_unseen_directions_and_parameters_held_by_the_prior_are_named(result):
     held = Estimate("j1.theta", "rad", 0.0, 0.0, 0.0, 0.01, "prior")
     blind = replace(
-        result, rank=3, unseen=(Unseen(("j1.theta",), "j1.theta does not change any reading"),), estimates=(held,)
+        result,
+        rank=3,
+        unseen=(Unseen(("j1.theta",), "j1.theta does not change any reading"),),
+        estimates=(held,),
+        priors={},
     )
     words = page_of(blind).words
     assert "3 of 4" in words

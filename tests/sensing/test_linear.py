@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from boresight.sensing.linear import CompiledModel, ReferenceModel, model_of, slopes_of
-from random_cells import SENSORS, mixed_cell, near_readings, random_arm, random_cell
+from random_cells import SENSORS, compiled_names, mixed_cell, near_readings, random_arm, random_cell
 
 
 def some(rng, cell):
-    names = [parameter.name for parameter in cell.parameters]
+    names = compiled_names(cell)
     rng.shuffle(names)
     return names[: rng.integers(1, len(names) + 1)]
 

@@ -148,8 +148,8 @@ def _causes(evidence: Evidence, change: Improvement) -> list[str]:
         said.append("No held-out row could be predicted: every beam misses its plane. Check planes and units.")
     elif change.configurations < FEWEST:
         said.append(
-            f"{_went(evidence.held_out)}, but {change.configurations} held-out configurations prove nothing: {FEWEST} "
-            "is the least that can, with 95 % confidence. Take more readings."
+            f"{_went(evidence.held_out)}, but {_configurations(change.configurations)} "
+            f"cannot prove an improvement: 95 % confidence takes at least {FEWEST}. Take more readings."
         )
     elif not change.high < 1.0:
         advice = "" if said else " Take more readings, spread over the joints' ranges, or estimate fewer parameters."
@@ -213,3 +213,7 @@ def _noise_in_words(check: NoiseCheck, model_std: float, evidence: Evidence) -> 
 
 def _at_bound(problem: Problem, x: Float[np.ndarray, "parameters"]) -> Float[np.ndarray, "parameters"]:
     return np.abs(x) > problem.half_width * (1.0 - AT_BOUND)
+
+
+def _configurations(count: int) -> str:
+    return "1 held-out configuration" if count == 1 else f"{count} held-out configurations"
