@@ -12,6 +12,7 @@ NAMES = (
     "intervals",
     "robustness",
     "trust",
+    "placements",
     "evolution",
     "strategies",
     "studies",

@@ -17,13 +17,13 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+from boresight.calibration.frames import find_frames
 
 from benchmarks.parallel import on_all_cores
 from benchmarks.report import Figure, Report, Table, percent
 from boresight.calibration import Campaign
 from boresight.calibration.beyond import fitted_with, go_beyond
 from boresight.calibration.campaign import TERMS, Term
-from boresight.calibration.frames import find_frames
 from boresight.calibration.freedom import freedoms_of
 from boresight.calibration.holdout import error_sizes
 from boresight.calibration.problem import Problem

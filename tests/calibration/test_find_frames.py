@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from rehearsed import NOISE, measured, position_cell, ranger_cell
 
-from boresight.calibration.frames import find_frames
+from boresight.calibration.placement import find_frames
 from boresight.errors import InputError
 from boresight.geometry import Frame, Plane
 
@@ -37,7 +37,7 @@ def test_a_trackers_base_and_reflector_are_found(seed):
     truth = position_cell("ur10", base=any_frame(rng, 3.0), mount=Frame(tuple(map(float, rng.uniform(-0.2, 0.2, 3)))))
     readings = measured(truth, rows=60, seed=seed)
     unknown = frozenset([*(f"base.{a}" for a in AXES), *(f"mount.{a}" for a in "xyz")])
-    found = find_frames(replace(truth, base=Frame(), mount=Frame()), readings, unknown, seed)
+    found = find_frames(replace(truth, base=Frame(), mount=Frame()), readings, unknown, seed).cell
     assert rms(found, readings) < 2 * NOISE
 
 
@@ -47,13 +47,13 @@ def test_a_rangers_mount_is_found_from_known_planes(seed):
     rng = np.random.default_rng(seed)
     truth = ranger_cell(planes=3, mount=any_frame(rng, 0.2))
     readings = measured(truth, rows=60, seed=seed)
-    found = find_frames(replace(truth, mount=Frame()), readings, frozenset(f"mount.{a}" for a in AXES), seed)
+    found = find_frames(replace(truth, mount=Frame()), readings, frozenset(f"mount.{a}" for a in AXES), seed).cell
     assert rms(found, readings) < 2 * NOISE
 
 
 def test_without_unknown_frames_the_cell_is_as_it_was():
     cell = ranger_cell()
-    assert find_frames(cell, measured(cell, rows=5), frozenset(), 0) is cell
+    assert find_frames(cell, measured(cell, rows=5), frozenset(), 0).cell is cell
 
 
 def test_the_same_seed_finds_the_same_frames():
@@ -61,7 +61,7 @@ def test_the_same_seed_finds_the_same_frames():
     readings = measured(truth, rows=20)
     unknown = frozenset(f"base.{a}" for a in AXES)
     start = replace(truth, base=Frame())
-    assert find_frames(start, readings, unknown, 3).base == find_frames(start, readings, unknown, 3).base
+    assert find_frames(start, readings, unknown, 3).cell.base == find_frames(start, readings, unknown, 3).cell.base
 
 
 def test_readings_that_no_placement_explains_are_an_error():

@@ -1,28 +1,24 @@
 """Slips that no small correction mends, tried one by one where a fit is bad.
 
-A plane whose offset has the wrong sign, two targets exchanged, rows that name another target, a joint that counts the
-other way round, readings that stand one row too early or too late: each is made undone, and told where the readings
-then fit.
+Each of `slips` is made undone, and told where the readings then fit.
 """
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from boresight.calibration.frames import find_frames
+from boresight.calibration.campaign import Campaign
 from boresight.calibration.gross import beyond_help
+from boresight.calibration.placement import find_frames
 from boresight.calibration.problem import MISSED_M, Problem
 from boresight.calibration.robust import Fit
+from boresight.calibration.slips import slips
 from boresight.calibration.thinning import thinned
 from boresight.errors import InputError
-from boresight.geometry import Plane
-from boresight.inference import listed
 from boresight.inference.score_tests import QUADRATIC, fit_robustly
-from boresight.sensing import Cell, Readings
+from boresight.sensing import Cell
 from boresight.sensing.linear import slopes_of
 
 ROWS = 300
@@ -63,13 +59,13 @@ class Alternative:
         )
 
 
-def find_alternatives(found: Fit, nominal: Cell, unknown: frozenset[str], seed: int) -> tuple[Alternative, ...]:
+def find_alternatives(found: Fit, nominal: Cell, campaign: Campaign, seed: int) -> tuple[Alternative, ...]:
     """Returns the slips that explain what a bad fit leaves, the best first.
 
     Args:
         found: the fit.
         nominal: the cell before it.
-        unknown: parameters of frames that nobody has measured: they are found anew for each slip.
+        campaign: where unknown frames are found anew for each slip.
         seed: of that search.
     """
     free = tuple(f for f in found.problem.freedoms if f.parameter in nominal.index)
@@ -77,8 +73,8 @@ def find_alternatives(found: Fit, nominal: Cell, unknown: frozenset[str], seed: 
     problem = problem.on(thinned(problem.readings, ROWS))
     before, cost = _typical(problem), _fitted_cost(problem)
     promising = []
-    for effect, words, cell, readings in _slips(nominal, problem.readings):
-        trial = _placed(replace(problem, cell=cell, readings=readings), unknown, seed)
+    for effect, words, cell, readings in slips(nominal, problem.readings):
+        trial = _placed(replace(problem, cell=cell, readings=readings), campaign, seed)
         if trial is not None and (typical := _typical(trial)) <= NEARER * before:
             promising.append((typical, effect, words, trial))
     told = []
@@ -89,12 +85,13 @@ def find_alternatives(found: Fit, nominal: Cell, unknown: frozenset[str], seed: 
     return tuple(sorted(told, key=lambda each: each.ratio_after))
 
 
-def _placed(problem: Problem, unknown: frozenset[str], seed: int) -> Problem | None:
+def _placed(problem: Problem, campaign: Campaign, seed: int) -> Problem | None:
     """Returns the problem with its unknown frames where these readings put them; None where there is no such place."""
+    unknown = campaign.sought
     if not unknown - set(problem.cell.offsets):
         return problem
     try:
-        return replace(problem, cell=find_frames(problem.cell, problem.readings, unknown, seed))
+        return replace(problem, cell=find_frames(problem.cell, problem.readings, unknown, seed, campaign.priors).cell)
     except InputError:
         return None
 
@@ -125,100 +122,6 @@ def _fitted_cost(problem: Problem) -> float:
 
 def _ratio(cost: float, problem: Problem) -> float:
     return float(np.sqrt(cost / max(problem.readings.count - len(problem.names), 1)))
-
-
-def _slips(cell: Cell, readings: Readings) -> Iterator[tuple[str, str, Cell, Readings]]:
-    """Yields each slip: its name, what to do, and cell and readings without it."""
-    planes = {name: target for name, target in cell.targets.items() if isinstance(target, Plane)}
-    for count in range(1, len(planes) + 1):
-        for names in itertools.combinations(planes, count) if len(planes) <= 4 or count in (1, len(planes)) else ():
-            turned = {name: Plane.of(planes[name].normal, -planes[name].offset) for name in names}
-            whose = f"`{names[0]}`" if count == 1 else listed([f"`{name}`" for name in names])
-            yield (
-                f"{names[0] if count == 1 else 'planes'} flipped",
-                f"The offset of {whose} with the other sign explains the readings; a plane is n·p + offset = 0",
-                replace(cell, targets={**cell.targets, **turned}),
-                readings,
-            )
-    yield from _exchanged(cell, readings)
-    for place, name in enumerate(cell.arm.joint_names):
-        sign = np.where(np.arange(readings.joints.shape[1]) == place, -1.0, 1.0)
-        since = None if readings.since is None else readings.since * sign
-        yield (
-            f"{name} counts backwards",
-            f"Joint {name} counts the other way round than the robot's file says: negate its readings",
-            cell,
-            replace(readings, joints=readings.joints * sign, since=since),
-        )
-    names = cell.arm.joint_names
-    for first, second in itertools.combinations(range(len(names)), 2):
-        joints = readings.joints.copy()
-        joints[:, [first, second]] = joints[:, [second, first]]
-        yield (
-            "joint columns",
-            f"The columns of joints {names[first]} and {names[second]} are exchanged",
-            cell,
-            replace(readings, joints=joints),
-        )
-    for shift, word in ((1, "earlier"), (-1, "later")):
-        joints = np.roll(readings.joints, shift, axis=0)
-        yield (
-            "row order",
-            f"Each reading belongs to the configuration one row {word}",
-            cell,
-            replace(readings, joints=joints),
-        )
-        if cell.targets:
-            yield (
-                "row order",
-                f"Each reading belongs to the configuration and target one row {word}",
-                cell,
-                replace(readings, joints=joints, target=np.roll(readings.target, shift)),
-            )
-
-
-def _exchanged(cell: Cell, readings: Readings) -> Iterator[tuple[str, str, Cell, Readings]]:
-    """Yields targets exchanged in all rows, and each row with the target that fits it best."""
-    aims = cell.aims
-    same = {
-        place: [
-            k for k, other in enumerate(aims) if (other.sensor, other.mount) == (aim.sensor, aim.mount) and other.target
-        ]
-        for place, aim in enumerate(aims)
-    }
-    used = [name for name in cell.targets if any(aims[k].target == name for k in np.unique(readings.target))]
-    for first, second in itertools.combinations(used, 2):
-        swap = {first: second, second: first}
-        renamed = [
-            next((k for k in same[p] if aims[k].target == swap.get(aims[p].target or "", aims[p].target)), p)
-            for p in range(len(aims))
-        ]
-        yield (
-            "targets",
-            f"Targets `{first}` and `{second}` are exchanged in the rows' column target",
-            cell,
-            replace(readings, target=np.array(renamed)[readings.target]),
-        )
-    if len(used) < 2:
-        return
-    sizes = np.full((len(aims), len(readings)), np.inf)
-    for place in range(len(aims)):
-        own = np.array([place if place in same[p] else p for p in readings.target])
-        errors = np.linalg.norm(cell.errors(replace(readings, target=own)), axis=1)
-        sizes[place] = np.where(own == place, np.nan_to_num(errors, nan=MISSED_M), np.inf)
-    given = sizes[readings.target, np.arange(len(readings))]
-    best = np.argmin(sizes, axis=0)
-    usual = 3.0 * float(np.median(np.min(sizes, axis=0))) + 1e-6
-    wrong = (given > 3.0 * usual) & (np.min(sizes, axis=0) < usual)
-    if np.count_nonzero(wrong) >= FEWEST:
-        lines = [str(line) for line in readings.line[wrong]]
-        plural = "s" if len(lines) > 1 else ""
-        yield (
-            "targets",
-            f"{len(lines)} row{plural} fit another target than the one they name (line{plural} {listed(lines)})",
-            cell,
-            replace(readings, target=np.where(wrong, best, readings.target)),
-        )
 
 
 def is_bad(found: Fit, unknown: frozenset[str]) -> bool:

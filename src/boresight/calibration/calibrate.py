@@ -13,7 +13,6 @@ from boresight.calibration.complete_model import complete_model
 from boresight.calibration.encoder_noise import with_joint_noise
 from boresight.calibration.estimates import estimates_of
 from boresight.calibration.expected_gain import expected_gain
-from boresight.calibration.frames import find_frames
 from boresight.calibration.freedom import freedoms_of
 from boresight.calibration.gross import MOST_LEFT_OUT, beyond_help, grossly_off, share_left_out
 from boresight.calibration.holdout import by_cross_validation, on_validation_rows, row_sizes, summarise
@@ -22,6 +21,7 @@ from boresight.calibration.missing import find_missing
 from boresight.calibration.model_error import model_error
 from boresight.calibration.noise_size import noise_size
 from boresight.calibration.outliers import find_outliers
+from boresight.calibration.placement import find_frames
 from boresight.calibration.priors import assumed, unestimated
 from boresight.calibration.problem import Problem
 from boresight.calibration.result import Result, Unseen
@@ -84,8 +84,8 @@ def _calibrated(campaign: Campaign, solver: Solver, on_progress: Progress | None
     if not readings.measured:
         raise InputError(f"{campaign.name}: there are configurations but no readings; measure them, then calibrate")
     on_step("frames")
-    nominal = find_frames(campaign.cell, readings, campaign.unknown, solver.seed)
-    nominal = nominal if campaign.gravity is None else nominal.under(campaign.gravity)
+    placed = find_frames(campaign.cell, readings, campaign.sought, solver.seed, campaign.priors)
+    nominal = placed.cell if campaign.gravity is None else placed.cell.under(campaign.gravity)
     readings = with_joint_noise(nominal, readings, campaign.joint_noise_std)
     campaign = replace(campaign, readings=readings)
     freedoms = freedoms_of(campaign, nominal)
@@ -111,7 +111,8 @@ def _calibrated(campaign: Campaign, solver: Solver, on_progress: Progress | None
     on_step("pose uncertainty")
     spread = spread_configurations(identified, WORKSPACE_CONFIGURATIONS)
     tool = replace(known.moments, model_std=model_error(solution.fit, held_out, campaign.validation))
-    accuracy = tool_accuracy(identified, tool, spread)
+    mirrored = bool(placed.warnings)
+    accuracy = tool_accuracy(identified, tool, spread, mirrored=mirrored)
     in_workspace = accuracy.absolute.pose
     errors = {"before": problem.errors(np.zeros(len(x))), "after": problem.errors(x)}
     asked = readings if campaign.validation is None else campaign.validation
@@ -138,7 +139,7 @@ def _calibrated(campaign: Campaign, solver: Solver, on_progress: Progress | None
         cell=identified,
         nominal=nominal,
         verdict=verdict,
-        estimates=estimates_of(problem, identified, known, replace(campaign.cell, arm=nominal.arm), campaign.unknown),
+        estimates=estimates_of(problem, identified, known, replace(campaign.cell, arm=nominal.arm), campaign.sought),
         free=len(problem.names),
         rank=found.rank,
         unseen=unseen,
@@ -156,7 +157,7 @@ def _calibrated(campaign: Campaign, solver: Solver, on_progress: Progress | None
         solver=solver,
         covariance=covariance,
         free_names=problem.names,
-        at_rows=tool_accuracy(identified, tool, asked.joints[thinned(asked)]).absolute.pose,
+        at_rows=tool_accuracy(identified, tool, asked.joints[thinned(asked)], mirrored=mirrored).absolute.pose,
         accuracy=accuracy,
         assumed=assumed(campaign, nominal),
         priors=others,
@@ -167,6 +168,7 @@ def _calibrated(campaign: Campaign, solver: Solver, on_progress: Progress | None
         set_aside=campaign.set_aside,
         warnings=(
             *campaign.warnings,
+            *placed.warnings,
             *_warnings(solution.fit),
             *(words for words in missing.words if words not in verdict.reasons),
         ),

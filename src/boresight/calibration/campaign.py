@@ -8,10 +8,15 @@ from typing import Literal
 
 from boresight.arm.serial import SerialChain
 from boresight.sensing import Cell, Readings
+from boresight.units import Quantity
 
 Term = Literal["gravity", "harmonics"]
 TERMS: tuple[Term, ...] = ("gravity", "harmonics")
 """What bends or turns a joint beside its geometry."""
+
+
+ROUGH: dict[Quantity, float] = {"length": 0.02, "angle": 0.05, "number": 0.05}
+"""Standard deviations [m, rad or 1] beyond which a frame that is stated is still to be found."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,6 +113,18 @@ class Campaign:
     notes: tuple[str, ...] = ()
     inputs: Mapping[str, str] = field(default_factory=dict)
     robot_file: RobotFile | None = None
+
+    @property
+    def sought(self) -> frozenset[str]:
+        """The parameters of frames that are found from the readings: unknown, or stated too roughly to start from."""
+        frames = ("base", *self.cell.mounts)
+        rough = {
+            parameter.name
+            for parameter in self.cell.parameters
+            if parameter.name.rpartition(".")[0] in frames
+            and self.priors.get(parameter.name, 0.0) > ROUGH[parameter.quantity]
+        }
+        return self.unknown | (rough - self.fixed)
 
     @property
     def chosen_by_default(self) -> bool:

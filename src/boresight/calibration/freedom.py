@@ -32,8 +32,9 @@ def freedoms_of(campaign: Campaign, cell: Cell) -> tuple[Freedom, ...]:
         campaign: what was asked for.
         cell: its cell, with unknown frames where they were found.
     """
-    frames = tuple(Freedom(name, None, None) for name in cell.index if name in campaign.unknown - campaign.fixed)
-    asked = {f.parameter: f for f in campaign.freedoms or () if f.parameter not in campaign.fixed | campaign.unknown}
+    sought = campaign.sought - campaign.fixed
+    frames = tuple(Freedom(name, None, campaign.priors.get(name)) for name in cell.index if name in sought)
+    asked = {f.parameter: f for f in campaign.freedoms or () if f.parameter not in campaign.fixed | campaign.sought}
     first = frames + tuple(asked[name] for name in cell.index if name in asked)
     if not campaign.chosen_by_default:
         return first

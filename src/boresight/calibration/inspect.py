@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from boresight.calibration.campaign import Campaign
-from boresight.calibration.frames import find_frames
 from boresight.calibration.freedom import freedoms_of
 from boresight.calibration.left_out import LeftOut, left_out
+from boresight.calibration.placement import find_frames
 from boresight.calibration.problem import Problem
 from boresight.errors import InputError
 from boresight.geometry import Frame, rpy_matrix
@@ -127,7 +127,8 @@ def inspect(campaign: Campaign, *, rows: int | None = None, seed: int = 0) -> In
     measured = campaign.readings is not None and campaign.readings.measured
     cell, guessed = campaign.cell, bool(campaign.unknown - set(campaign.cell.offsets)) and not measured
     if campaign.readings is not None and measured:
-        cell = find_frames(cell, campaign.readings, campaign.unknown, seed)
+        placed = find_frames(cell, campaign.readings, campaign.sought, seed, campaign.priors)
+        cell, campaign = placed.cell, replace(campaign, warnings=(*campaign.warnings, *placed.warnings))
     drawn = rows is not None or campaign.readings is None
     readings = campaign.readings
     if readings is None or rows is not None:

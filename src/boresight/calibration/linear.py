@@ -141,9 +141,10 @@ def equipped(cell: Cell, terms: tuple[Term, ...]) -> Cell:
 
 
 def _own_kind(cell: Cell, freedom: Freedom, terms: tuple[Term, ...], learn: bool) -> str:
-    """Returns the kind of a free parameter, "" if what is believed of it is not to be learned."""
+    """Returns the kind of a free parameter, "" if what is believed of it is not to be learned: of links alone it is."""
     kind = _kind(freedom.parameter, terms)
-    if kind or not learn or freedom.prior_std is None:
+    of_link = freedom.parameter.rpartition(".")[0] in cell.arm.joint_names
+    if kind or not learn or freedom.prior_std is None or not of_link:
         return kind
     quantity = cell.parameters[cell.index[freedom.parameter]].quantity
     return {"angle": ANGLES, "length": LENGTHS, "number": ""}[quantity]

@@ -48,7 +48,7 @@ def find_missing(fit: Fit, campaign: Campaign, nominal: Cell, accuracy: Accuracy
         seed: of the search for frames, where a slip asks for it.
     """
     tool = accuracy.absolute if accuracy.absolute.determined else accuracy.relative
-    alternatives = find_alternatives(fit, nominal, campaign.unknown, seed) if is_bad(fit, campaign.unknown) else ()
+    alternatives = find_alternatives(fit, nominal, campaign, seed) if is_bad(fit, campaign.sought) else ()
     if alternatives:
         return Missing((), (), alternatives, (), tuple(each.sentence for each in alternatives))
     jumps = find_jumps(fit)

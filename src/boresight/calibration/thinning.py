@@ -18,12 +18,13 @@ FEWEST = 200
 """Rows that every aim keeps, or all where it has no more."""
 
 
-def thinned(readings: Readings, few: int = FEW) -> Int[np.ndarray, "some"]:
+def thinned(readings: Readings, few: int = FEW, fewest: int = FEWEST) -> Int[np.ndarray, "some"]:
     """Returns about so many rows, in their order and the same ones every time; all where there are not many.
 
     Args:
         readings: all rows.
         few: how many; where they are more than twice as many, they are thinned.
+        fewest: rows that every aim keeps, or all where it has no more.
     """
     count = len(readings)
     if count <= 2 * few:
@@ -32,6 +33,6 @@ def thinned(readings: Readings, few: int = FEW) -> Int[np.ndarray, "some"]:
     chosen = []
     for aim in np.unique(readings.target):
         rows = np.flatnonzero(readings.target == aim)
-        ends = np.linspace(0, len(rows), min(max(few * len(rows) // count, FEWEST), len(rows)) + 1).astype(int)
+        ends = np.linspace(0, len(rows), min(max(few * len(rows) // count, fewest), len(rows)) + 1).astype(int)
         chosen.append(rows[random.integers(ends[:-1], ends[1:])])
     return np.sort(np.concatenate(chosen))

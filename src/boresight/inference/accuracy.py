@@ -21,6 +21,9 @@ MOVED = 1e-6
 """A gauge direction of unit length that moves the tool by less than this share of its own size does not move it."""
 
 
+ASIDE = 0.05
+"""A gauge direction that turns the tool about its own axis, and about others by less than this share, is a spin."""
+
 NOTHING = 1e-6
 """Directions in which the tool's variance before any reading is below this share of the largest are known anyway."""
 
@@ -55,7 +58,6 @@ class ToolAccuracy:
     Attributes:
         pose: uncertainty of the tool's pose at each configuration, combined (Type A and Type B).
         prior: median 95 % radius of the position before any reading [m].
-        determined: whether the positions depend on no gauge direction.
         noise_share: median share of the position's variance that comes from the readings, not from priors.
         remaining: of the position's standard deviation before any reading, the share that is left in the direction in
             which the readings tell least.
@@ -63,19 +65,23 @@ class ToolAccuracy:
 
     pose: PoseUncertainty
     prior: float
-    determined: bool
     noise_share: float = 1.0
     remaining: float = 0.0
 
     @property
-    def position_radius(self) -> Float[np.ndarray, "rows"]:
-        """Radius [m] that holds each true position with 95 % probability; infinite where it is not determined."""
-        return self.pose.position_95 if self.determined else np.full(len(self.pose.joints), np.inf)
+    def determined(self) -> bool:
+        """Whether the positions depend on no gauge direction."""
+        return self.pose.position_known
 
     @property
     def median(self) -> float:
-        """Median over the configurations of `position_radius` [m]."""
-        return float(np.median(self.position_radius))
+        """Median over the configurations of the position's 95 % radius [m]; infinite where it is not determined."""
+        return float(np.median(self.pose.position_95))
+
+    @property
+    def median_turn(self) -> float:
+        """The same of the orientation [rad]."""
+        return float(np.median(self.pose.orientation_95))
 
 
 @dataclass(frozen=True)
@@ -86,33 +92,65 @@ class Accuracy:
     relative: ToolAccuracy
 
 
-def tool_accuracy(cell: Cell, known: Moments, joints: Float[np.ndarray, "rows joints"]) -> Accuracy:
+def tool_accuracy(
+    cell: Cell, known: Moments, joints: Float[np.ndarray, "rows joints"], *, mirrored: bool = False
+) -> Accuracy:
     """Returns the tool's absolute and relative accuracy at some configurations.
 
     Args:
         cell: the identified cell.
         known: what is known of its parameters.
         joints: configurations [rad or m].
+        mirrored: whether the base may as well stand elsewhere, so that nothing absolute is determined.
     """
     slopes, columns = tool_slopes(cell, known.names, joints)
-    positions = cell.poses(joints)[:, :3, 3]
+    poses = cell.poses(joints)
+    positions, beam = poses[:, :3, 3], poses[:, :3, 2]
     reach = max(float(np.ptp(positions, axis=0).max(initial=0.0)), 1e-3)
     of_model = np.diag([known.model_std**2] * 3 + [(known.model_std / reach) ** 2] * 3)
 
-    def of(slopes: Float[np.ndarray, "rows moving 6"]) -> ToolAccuracy:
+    def of(slopes: Float[np.ndarray, "rows moving 6"], *, known_place: bool = True) -> ToolAccuracy:
         part = np.ix_(columns, columns)
+        drift = np.einsum("rpi,gp->rgi", slopes, known.gauge[:, columns])
+        spin = np.einsum("rgi,ri->rg", drift[:, :, 3:], beam)
+        aside = drift[:, :, 3:] - spin[:, :, None] * beam[:, None]
+        beam_alone = not _still(spin) and _size(aside) <= ASIDE * _size(spin)
+        if beam_alone:
+            slopes = _without_spin(slopes, beam)
         covariance = carried(slopes, known.covariance[part]) + of_model
         noise = carried(slopes, known.noise[part]) + of_model
         total, estimated = (np.trace(each[:, :3, :3], axis1=1, axis2=2) for each in (covariance, noise))
-        pose = PoseUncertainty(joints, covariance, effective_freedom(total, estimated, known.freedom))
+        pose = PoseUncertainty(
+            joints,
+            covariance,
+            effective_freedom(total, estimated, known.freedom),
+            position_known=known_place and _still(drift[:, :, :3]),
+            orientation_known=known_place and (beam_alone or _still(drift[:, :, 3:])),
+            beam_alone=beam_alone,
+        )
         before = PoseUncertainty(joints, carried(slopes, known.prior[part]), np.full(len(joints), np.inf))
-        drift = np.einsum("rpi,gp->rgi", slopes[:, :, :3], known.gauge[:, columns])
-        moved = float(np.sqrt(np.mean(drift**2))) if drift.size else 0.0
         share = float(np.median(estimated / np.maximum(total, 1e-300)))
         left = _remaining(pose.covariance[:, :3, :3], before.covariance[:, :3, :3])
-        return ToolAccuracy(pose, float(np.median(before.position_95)), moved <= MOVED, share, left)
+        return ToolAccuracy(pose, float(np.median(before.position_95)), share, left)
 
-    return Accuracy(of(slopes), of(without_rigid_motion(slopes, positions)))
+    return Accuracy(of(slopes, known_place=not mirrored), of(without_rigid_motion(slopes, positions)))
+
+
+def _still(drift: np.ndarray) -> bool:
+    """Returns whether gauge directions of unit length move the tool by nothing [m or rad]."""
+    return _size(drift) <= MOVED
+
+
+def _size(drift: np.ndarray) -> float:
+    return float(np.sqrt(np.sum(drift**2) / max(len(drift), 1)))
+
+
+def _without_spin(
+    slopes: Float[np.ndarray, "rows moving 6"], beam: Float[np.ndarray, "rows 3"]
+) -> Float[np.ndarray, "rows moving 6"]:
+    """Returns displacements of the tool less its turns about its own z axis."""
+    spin = np.einsum("rpi,ri->rp", slopes[:, :, 3:], beam)
+    return np.concatenate([slopes[:, :, :3], slopes[:, :, 3:] - spin[:, :, None] * beam[:, None]], axis=2)
 
 
 def _remaining(after: Float[np.ndarray, "rows 3 3"], before: Float[np.ndarray, "rows 3 3"]) -> float:

@@ -35,31 +35,43 @@ class PoseUncertainty:
         covariance: (rows, 6, 6) of the tool's displacement (position [m], then rotation [rad]), in the world's axes.
         freedom: (rows,) effective degrees of freedom of the variance (Welch-Satterthwaite); infinite where the size of
             the readings' noise is known.
+        position_known: whether the position depends on no gauge direction; if it does, its figures are infinite.
+        orientation_known: the same of the orientation.
+        beam_alone: whether the orientation is that of the tool's z axis, the spin about it being a gauge.
     """
 
     joints: Float[np.ndarray, "rows joints"]
     covariance: Float[np.ndarray, "rows 6 6"]
     freedom: Float[np.ndarray, "rows"]
+    position_known: bool = True
+    orientation_known: bool = True
+    beam_alone: bool = False
 
     @cached_property
     def position_std(self) -> Float[np.ndarray, "rows"]:
         """Standard uncertainty of the position error's length [m]: the root of the summed variances."""
-        return np.sqrt(np.trace(self.covariance[:, :3, :3], axis1=1, axis2=2))
+        return self._position(np.sqrt(np.trace(self.covariance[:, :3, :3], axis1=1, axis2=2)))
 
     @cached_property
     def orientation_std(self) -> Float[np.ndarray, "rows"]:
         """Standard uncertainty of the orientation error's angle [rad]."""
-        return np.sqrt(np.trace(self.covariance[:, 3:, 3:], axis1=1, axis2=2))
+        return self._orientation(np.sqrt(np.trace(self.covariance[:, 3:, 3:], axis1=1, axis2=2)))
 
     @cached_property
     def position_95(self) -> Float[np.ndarray, "rows"]:
         """Radius of the ball that holds each true position with 95 % probability [m]."""
-        return ball_radius(self.covariance[:, :3, :3], self.freedom)
+        return self._position(ball_radius(self.covariance[:, :3, :3], self.freedom))
 
     @cached_property
     def orientation_95(self) -> Float[np.ndarray, "rows"]:
         """The same of each orientation: the largest turn [rad]."""
-        return ball_radius(self.covariance[:, 3:, 3:], self.freedom)
+        return self._orientation(ball_radius(self.covariance[:, 3:, 3:], self.freedom))
+
+    def _position(self, size: Float[np.ndarray, "rows"]) -> Float[np.ndarray, "rows"]:
+        return size if self.position_known else np.full(len(size), np.inf)
+
+    def _orientation(self, size: Float[np.ndarray, "rows"]) -> Float[np.ndarray, "rows"]:
+        return size if self.orientation_known else np.full(len(size), np.inf)
 
     def holds(self, displacement: Float[np.ndarray, "rows 3"]) -> np.ndarray:
         """Returns whether each position error [m] lies inside its 95 % ellipsoid.

@@ -56,6 +56,10 @@ class Squares:
         return Squares(self.information[np.ix_(columns, columns)], self.pull[columns], self.square, self.count)
 
 
+UNDECIDED = 1e-10
+"""Share of the largest eigenvalue below which neither data nor priors decide a direction."""
+
+
 @dataclass(frozen=True)
 class Shrunk:
     """A fit with groups held near zero.
@@ -95,7 +99,7 @@ def shrink(
     std, variance, grouped = start.astype(float), 1.0, group >= 0
     for _ in range(ROUNDS):
         prior = scale**2 / np.where(grouped, std[group] if len(std) else 1.0, prior_std) ** 2
-        covariance = np.linalg.inv(scaled / variance + np.diag(prior))
+        covariance = _inverse(scaled / variance + np.diag(prior), held=bool(np.all(prior > 0.0)))
         step = covariance @ (pull / variance - prior * at / scale)
         decided = 1.0 - prior * np.diag(covariance)
         effective = np.array([max(float(decided[group == each].sum()), 1e-9) for each in range(len(std))])
@@ -107,3 +111,8 @@ def shrink(
         if np.all(moved < _SETTLED):
             break
     return Shrunk(step * scale, std, effective, float(np.sqrt(variance)))
+
+
+def _inverse(matrix: Float[np.ndarray, "parameters parameters"], *, held: bool) -> np.ndarray:
+    """Returns the inverse; where priors do not hold every parameter, without the directions that nothing decides."""
+    return np.linalg.inv(matrix) if held else np.linalg.pinv(matrix, rcond=UNDECIDED, hermitian=True)

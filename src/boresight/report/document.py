@@ -185,7 +185,7 @@ def _accuracy(accuracy: ToolAccuracy) -> dict[str, Any]:
         "determined": accuracy.determined,
         "radius_95": {
             "median": _number(accuracy.median),
-            "max": _number(float(np.max(accuracy.position_radius))),
+            "max": _number(float(np.max(accuracy.pose.position_95))),
             "before": accuracy.prior,
         },
         "share_from_readings": _number(accuracy.noise_share),
@@ -210,9 +210,13 @@ def _explanation(found: Explanation) -> dict[str, Any]:
 
 
 def _pose(uncertainty: PoseUncertainty) -> dict[str, Any]:
-    """Returns the tool's uncertainty over some configurations: root mean square and worst, k = 2 beside k = 1."""
+    """Returns the tool's uncertainty over some configurations: root mean square and worst, k = 2 beside k = 1.
+
+    What readings do not determine is None.
+    """
     return {
         "count": len(uncertainty.joints),
+        "orientation_of": "beam" if uncertainty.beam_alone else "tool",
         "position": _spread("m", uncertainty.position_std, uncertainty.position_95),
         "orientation": _spread("rad", uncertainty.orientation_std, uncertainty.orientation_95),
     }
@@ -222,9 +226,9 @@ def _spread(unit: str, std: np.ndarray, radius_95: np.ndarray) -> dict[str, Any]
     typical = float(np.sqrt(np.mean(std**2)))
     return {
         "unit": unit,
-        "standard": typical,
-        "expanded": COVERAGE * typical,
-        "radius_95": {"median": float(np.median(radius_95)), "max": float(np.max(radius_95))},
+        "standard": _number(typical),
+        "expanded": _number(COVERAGE * typical),
+        "radius_95": {"median": _number(float(np.median(radius_95))), "max": _number(float(np.max(radius_95)))},
     }
 
 

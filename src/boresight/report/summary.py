@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-import numpy as np
 from rich.console import Console, Group, RenderableType
 from rich.markup import escape
 from rich.padding import Padding
@@ -112,10 +111,15 @@ def _seen(result: Result) -> str:
 def _known(result: Result) -> str:
     absolute, relative = result.accuracy.absolute, result.accuracy.relative
     said = [
-        f"{_within(each.median)} and {1e3 * float(np.median(each.pose.orientation_95)):.3g} mrad {name}"
+        f"{_within(each.median)} and {_turned(each.median_turn)} {name}"
         for name, each in (("absolute", absolute), ("relative", relative))
     ]
-    return f"Tool pose over the work space, 95 %, median: {'; '.join(said)}."
+    beam = "; orientation is the beam's, without the spin about it" if absolute.pose.beam_alone else ""
+    return f"Tool pose over the work space, 95 %, median: {'; '.join(said)}{beam}."
+
+
+def _turned(radius: float) -> str:
+    return f"{1e3 * radius:.3g} mrad" if math.isfinite(radius) else "not determined"
 
 
 def _within(radius: float) -> str:

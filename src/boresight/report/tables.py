@@ -76,19 +76,18 @@ def pose_uncertainty_csv(result: Result) -> str:
     The absolute accuracy first, then the relative one, after the best rigid motion; a radius that the readings do not
     determine is written as inf.
     """
-    absolute, relative = result.accuracy.absolute, result.accuracy.relative
+    found, relative = result.accuracy.absolute.pose, result.accuracy.relative
     header = ["position_std_m", "position_95_m", "orientation_std_rad", "orientation_95_rad"]
     header += ["relative_position_95_m", "relative_orientation_95_rad"]
-    found = absolute.pose
     sizes = (
         found.position_std,
-        _written(absolute.position_radius),
+        found.position_95,
         found.orientation_std,
         found.orientation_95,
-        _written(relative.position_radius),
+        relative.pose.position_95,
         relative.pose.orientation_95,
     )
-    return _csv([*result.cell.arm.joint_names, *header], _rows_of((*found.joints.T, *sizes)))
+    return _csv([*result.cell.arm.joint_names, *header], _rows_of((*found.joints.T, *map(_written, sizes))))
 
 
 def _written(radius: Float[np.ndarray, "rows"]) -> np.ndarray:
