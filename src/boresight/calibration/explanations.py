@@ -135,8 +135,6 @@ def _distinct(found: list[Explanation]) -> Iterator[Explanation]:
 def _material(found: Explanation, cost: float, radius_m: float) -> bool:
     if abs(found.value) > FAR * USUAL[_QUANTITY[found.unit]]:
         return False
-    if abs(found.value) > FAR * USUAL[_QUANTITY[found.unit]]:
-        return False
     moved = math.isfinite(found.tool_m) and found.tool_m > 0.5 * radius_m and abs(found.value) > CERTAIN * found.std
     return found.cost <= MATERIAL * cost or moved
 
