@@ -5,12 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from boresight.calibration.effects import all_slopes, joint_slopes
 from boresight.calibration.robust import Fit
+from boresight.calibration.robust import fit as fit_robustly
 from boresight.inference import model_std
 from boresight.sensing import Cell, Readings
+
+REFITS = 2
+"""Fits with rows weighed by the encoder noise found before."""
 
 LIKELIER = 8.0
 """Encoder noise is named where twice its log-likelihood exceeds that of the same error in every reading by this."""
@@ -64,20 +68,41 @@ def find_encoder_noise(fit: Fit) -> EncoderNoise | None:
     cell, readings = problem.cell, problem.readings
     turning = np.array([joint.type == "revolute" for joint in cell.arm.driven])
     slopes = joint_slopes(cell, readings, all_slopes(cell, readings, problem.corrections(fit.x)))
-    power = np.sum((slopes * turning) ** 2, axis=2)
-    errors, std = problem.errors(fit.x), readings.std
-    seen = np.isfinite(errors) & readings.read & kept[:, None] & (power > 0.0)
+    lever = np.sqrt(np.sum((slopes * turning) ** 2, axis=2))
+    seen = np.isfinite(problem.errors(fit.x)) & readings.read & kept[:, None] & (lever > 0.0)
     if np.count_nonzero(seen) < 2 * len(fit.x) or not seen.any():
         return None
-    lever = np.sqrt(power[seen])
-    # Divided by its own lever, a residual of encoder noise is of one size everywhere, as a model's error is undivided.
-    turn = model_std(errors[seen] / lever, std[seen] / lever, len(fit.x))
+    refitted, turn = fit, 0.0
+    for _ in range(REFITS):  # rows that joints move much have bent the fit that weighed all alike
+        turn = _size(refitted, lever, readings.std, seen & np.isfinite(refitted.problem.errors(refitted.x)))
+        if turn == 0.0:
+            return None
+        weighed = replace(readings, std=np.hypot(readings.std, np.where(readings.read, turn * lever, 0.0)))
+        refitted = fit_robustly(replace(problem, readings=weighed, model_std=0.0, row_weights=None), fit.x)
+    errors, std = refitted.problem.errors(refitted.x), readings.std
+    both = seen & refitted.kept[:, None] & np.isfinite(errors)
+    if not both.any():
+        return None
     likelihoods = [
-        _minus_twice_log(errors[seen], std[seen] ** 2 + (turn * lever) ** 2),
-        _minus_twice_log(errors[seen], std[seen] ** 2 + problem.model_std**2),
+        _minus_twice_log(errors[both], std[both] ** 2 + (turn * lever[both]) ** 2),
+        _minus_twice_log(problem.errors(fit.x)[both], std[both] ** 2 + problem.model_std**2),
     ]
     likelier = likelihoods[1] - likelihoods[0]
-    return EncoderNoise(turn, likelier) if turn > 0.0 and likelier > LIKELIER else None
+    return EncoderNoise(turn, likelier) if likelier > LIKELIER else None
+
+
+def _size(
+    fit: Fit,
+    lever: Float[np.ndarray, "rows channels"],
+    std: Float[np.ndarray, "rows channels"],
+    seen: Bool[np.ndarray, "rows channels"],
+) -> float:
+    """Returns the standard deviation of joint readings [rad] that a fit's residuals speak of.
+
+    Divided by its own lever, a residual of encoder noise is of one size everywhere, as a model's error is undivided.
+    """
+    errors = fit.problem.errors(fit.x)[seen] / lever[seen]
+    return model_std(errors, std[seen] / lever[seen], len(fit.x))
 
 
 def _minus_twice_log(errors: Float[np.ndarray, "values"], variance: Float[np.ndarray, "values"]) -> float:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from boresight.calibration.alternatives import Alternative, find_alternatives, is_bad
 from boresight.calibration.campaign import Campaign
 from boresight.calibration.encoder_noise import find_encoder_noise
-from boresight.calibration.explanations import Explanation, explain, explanation_in_words
+from boresight.calibration.explanation import Explanation, explanation_in_words
+from boresight.calibration.explanations import explain
 from boresight.calibration.freedom import usual_within
 from boresight.calibration.jumps import Jump, find_jumps
 from boresight.calibration.robust import Fit

@@ -13,7 +13,7 @@ from jaxtyping import Float
 from boresight.calibration.alternatives import Alternative
 from boresight.calibration.beyond import Beyond
 from boresight.calibration.campaign import RobotFile, SetAside
-from boresight.calibration.explanations import Explanation
+from boresight.calibration.explanation import Explanation
 from boresight.calibration.jumps import Jump
 from boresight.calibration.robust import NoiseCheck
 from boresight.calibration.sensitivities import Sensitivity

@@ -9,7 +9,7 @@ from jaxtyping import Float
 
 from boresight.calibration.alternatives import Alternative
 from boresight.calibration.campaign import Term
-from boresight.calibration.explanations import Explanation
+from boresight.calibration.explanation import Explanation
 from boresight.calibration.gross import MOST_LEFT_OUT, grossly_off, share_left_out
 from boresight.calibration.holdout import HeldOut
 from boresight.calibration.improvement import FEWEST, Improvement, improvement

@@ -10,7 +10,7 @@ import numpy as np
 
 from boresight.arm.serial import corrected_chain
 from boresight.calibration.beyond import Beyond
-from boresight.calibration.explanations import Explanation
+from boresight.calibration.explanation import Explanation
 from boresight.calibration.result import ErrorSummary, Residuals, Result
 from boresight.calibration.solve import Stage
 from boresight.geometry import Frame, Plane
