@@ -52,7 +52,7 @@ class Outcome:
         axes: how many the arm has.
         rows: how many readings.
         found: `found`, `refused` or `wrong`.
-        seconds: that the search took.
+        seconds: of processor time that the search took, on one core.
         ratio: the larger of position's and direction's error over those of the fit from the truth.
     """
 
@@ -114,12 +114,12 @@ def outcome(seed: int, rows: int) -> Outcome:
     )
     readings = Readings(joints, values[:, None], np.full((rows, 1), NOISE_M), target, np.arange(rows) + 2)
     _load_kernels()
-    start = time.perf_counter()
+    start = time.process_time()
     try:
         found = find_frames(package_cell(nominal, cell), readings, UNKNOWN, seed).cell
     except InputError:
-        return Outcome(nominal.count, rows, "refused", time.perf_counter() - start, np.inf)
-    seconds = time.perf_counter() - start
+        return Outcome(nominal.count, rows, "refused", time.process_time() - start, np.inf)
+    seconds = time.process_time() - start
     checked = anywhere(cell, CHECKED, random)
     own = _errors(cell, fitted_from_truth(nominal, cell, joints, target, values), checked)
     placed = _errors(cell, TrueCell(nominal, found.base.matrix, found.mounts["mount"].matrix), checked)
@@ -206,7 +206,7 @@ def run(quick: bool) -> Report:
         (
             Figure("found", f"{found} of {len(outcomes)}", "999 of 1,000", found >= 0.999 * len(outcomes)),
             Figure("wrong without a word", str(wrong), "0", wrong == 0),
-            Figure("slowest search", f"{slowest:.2f} s", "<= 2 s", slowest <= 2.0),
+            Figure("slowest search, processor time", f"{slowest:.2f} s", "<= 2 s", slowest <= 2.0),
         ),
         (
             Table(

@@ -6,6 +6,7 @@ import os
 import numpy as np
 import pytest
 
+from boresight.errors import InputError
 from boresight.files import observations
 
 HEADER = "j1,j2,range\n"
@@ -215,9 +216,11 @@ def test_readings_beyond_a_joints_limits_name_the_worst(read):
 
 
 @pytest.mark.parametrize("row", ["160,2,3", "1,7,3\n-40,1,3"])
-def test_angles_that_look_like_degrees_are_warned_of_once(read, row):
-    (warning,) = read(f"{HEADER}{row}\n").warnings
-    assert "say units: {angle: deg} in the campaign" in warning
+def test_angles_that_look_like_degrees_are_refused_once(read, row):
+    with pytest.raises(InputError) as refused:
+        read(f"{HEADER}{row}\n")
+    (problem,) = refused.value.problems
+    assert problem.endswith("within its limits as degrees: say units: {angle: deg} in the campaign")
 
 
 def test_radians_in_a_file_of_degrees_are_warned_of(folder, campaign_with):

@@ -16,6 +16,8 @@ from boresight.files.equipment import frame_of, read_aims, read_targets, sensor_
 from boresight.files.explaining import validated
 from boresight.files.observations import Observations, read_observations
 from boresight.files.patterns import Matcher
+from boresight.files.plausible_readings import readings_fault
+from boresight.files.plausible_units import check_arm
 from boresight.files.problems import Problems, listed
 from boresight.files.schemas import DEFAULT, CampaignEntry, DataEntry, PointEntry
 from boresight.files.sessions import ONLY, in_sessions, sessions_of, with_sessions
@@ -54,6 +56,12 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
                 inputs[named.name] = data[key].sha256
         elif key == "observations" and need_readings:
             problems.add(f"{document.at(())}there are no readings; expected observations: observations.csv")
+    problems.raise_if_any()
+    check_arm(cell, robot.called, document.name, problems)
+    for key, part in data.items():
+        fault = readings_fault(cell, part.readings, _unknown(entry), entry.units.value, robot.called.name)
+        if fault is not None and not problems:
+            problems.add(f"{getattr(entry, key).name}: {fault}")
     problems.raise_if_any()
     plain, readings = cell, {key: with_flatness(entry, cell, part.readings) for key, part in data.items()}
     sensors = [name for name, sensor in entry.named_sensors.items() if sensor.offset_per is not None]

@@ -9,8 +9,9 @@ from boresight.calibration.campaign import RobotFile
 from boresight.errors import InputError, did_you_mean
 from boresight.files.composing import KeyPath
 from boresight.files.documents import Document, read_document
+from boresight.files.plausible_units import Robot
 from boresight.files.problems import listed, shown
-from boresight.files.robots import arm_of, is_urdf
+from boresight.files.robots import arm_of, is_urdf, units_of
 from boresight.files.schemas import CampaignEntry
 from boresight.files.urdf import read_urdf
 
@@ -25,6 +26,7 @@ class RobotOf:
         self.file: RobotFile | None = None
         self.held: frozenset[str] = frozenset()
         self.notes: tuple[str, ...] = ()
+        self.called = Robot(self._choice.urdf or self._choice.file or f"catalogue: {self._choice.catalogue}", None)
 
     def read(self) -> Arm:
         """Returns the arm; raises an `InputError` where there is none."""
@@ -35,6 +37,7 @@ class RobotOf:
         if self._choice.urdf is None and not is_urdf(name):
             robot = read_document(path, name, place)
             self._inputs[name] = robot.sha256
+            self.called = Robot(name, units_of(robot))
             return arm_of(robot)
         self.file = read_urdf(path, name, place, self._choice.base, self._choice.tip)
         self._inputs[name] = hashlib.sha256(self.file.content).hexdigest()

@@ -12,7 +12,7 @@ from boresight.files.documents import Document, read_document
 from boresight.files.equipment import frame_of
 from boresight.files.explaining import validated
 from boresight.files.problems import Problems, shown
-from boresight.files.schemas import JointEntry, RobotEntry
+from boresight.files.schemas import JointEntry, RobotEntry, UnitsEntry
 from boresight.files.urdf import SUFFIXES, read_urdf
 from boresight.geometry import Frame
 from boresight.units import Units
@@ -55,6 +55,15 @@ def arm_of(document: Document) -> Arm:
     joints = tuple(_joint(joint, units, entry) for joint in entry.joints)
     root, tip = (frame_of(place, units) for place in (entry.root, entry.tip))
     return Arm(entry.name, joints, entry.convention, root, tip, entry.gravity or DOWN)
+
+
+def units_of(document: Document) -> Units | None:
+    """Returns the units that a robot's document is in; None where it does not say them as it should."""
+    given = document.data.get("units", {}) if isinstance(document.data, dict) else {}
+    try:
+        return UnitsEntry.model_validate(given).value
+    except ValueError:
+        return None  # `arm_of` says what is wrong with it
 
 
 def dump_robot(arm: Arm, header_comment: str = "") -> str:

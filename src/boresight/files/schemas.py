@@ -120,11 +120,17 @@ def _not_minute(value: float) -> float:
 
 
 def _is_numbers(value: Any, count: int) -> bool:
+    if isinstance(value, list) and any(_is_finite(each) and abs(each) > LARGEST for each in value):
+        raise expected(f"numbers of at most {LARGEST:g}")
     return isinstance(value, list) and len(value) == count and all(map(_is_number, value))
 
 
-def _is_number(value: Any) -> bool:
+def _is_finite(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST
 
 
 LARGEST = 1e9

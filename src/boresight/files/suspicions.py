@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from boresight.arm import Joint
+from boresight.errors import InputError
 from boresight.files.problems import printable
 from boresight.sensing import Cell, Readings
 from boresight.units import Units
@@ -23,7 +24,11 @@ _LINES_NAMED = 6
 
 
 def suspicions(readings: Readings, cell: Cell, units: Units, name: str) -> tuple[str, ...]:
-    """Returns what looks odd about the readings of a file, a sentence each."""
+    """Returns what looks odd about the readings of a file, a sentence each.
+
+    Raises:
+        InputError: joints are in degrees where radians were said.
+    """
     copies = _copies(readings, name)
     angles = _wrong_angles(readings, cell, units, name)
     # In the wrong unit every joint is beyond its limits: one sentence says it better than six.
@@ -58,8 +63,15 @@ def _wrong_angles(readings: Readings, cell: Cell, units: Units, name: str) -> li
     if not turning.any():
         return []
     size = np.abs(readings.joints[:, turning]).max(axis=0)
-    if units.angle == "rad" and (size.max() > _TWO_TURNS or _fits_as_degrees(readings, cell, turning)):
-        joint = np.array(cell.arm.joint_names)[turning][size.argmax()]
+    joint = np.array(cell.arm.joint_names)[turning][size.argmax()]
+    if units.angle == "rad" and _fits_as_degrees(readings, cell, turning):
+        raise InputError(
+            printable(
+                f"{name}: joint {joint} reads up to {size.max():.4g}, too much for radians and within its limits as "
+                "degrees: say units: {angle: deg} in the campaign"
+            )
+        )
+    if units.angle == "rad" and size.max() > _TWO_TURNS:
         return [
             f"{name}: joint {joint} reads up to {size.max():.4g}, too much for radians: "
             "if the file is in degrees, say units: {angle: deg} in the campaign"

@@ -1,0 +1,141 @@
+"""Whether an arm's and a tool's numbers can be meant in the units they are read in, before any fit.
+
+A number in another unit is a thousand times too large or too small, or 57 times. No fit recovers from that, and none is
+tried: the file and the key are named. Bounds are wide, so that every cell that can be built passes: arms from
+centimetres to tens of metres, rails, tools as long as the arm.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from boresight.files.problems import Problems
+from boresight.sensing import Cell
+from boresight.units import Units
+
+SMALLEST_ARM_M, LARGEST_ARM_M = 0.01, 90.0
+"""Reach [m] of the arms that are believed."""
+
+ALONE_M, ALONE = 25.0, 30.0
+"""A link longer than this [m], and than so many times all others together, is in another unit."""
+
+TOOL = 20.0
+"""A tool is not longer than so many times the arm's reach."""
+
+TURN = 2.0 * math.pi + 0.02
+"""No number of a link turns further [rad]."""
+
+RIGHT_ANGLES, NEARLY = (0.5 * math.pi, math.pi), 2e-4
+"""Degrees within this share of 1.5708 or 3.1416 are right angles in radians."""
+
+DRAWN = 200
+"""Configurations in which the arm's reach is looked for."""
+
+NAMES = {"m": "metres", "mm": "millimetres", "rad": "radians", "deg": "degrees"}
+
+
+@dataclass(frozen=True)
+class Robot:
+    """What the user calls the robot's file, and the units its numbers are in.
+
+    Attributes:
+        name: of the file.
+        units: of a robot.yaml; None of a URDF or an arm of the catalogue, which are in metres and radians.
+    """
+
+    name: str
+    units: Units | None
+
+
+def check_arm(cell: Cell, robot: Robot, campaign: str, problems: Problems) -> None:
+    """Adds a fault where the arm's or the tool's numbers cannot be meant in their units.
+
+    Args:
+        cell: the nominal cell [m, rad].
+        robot: its file.
+        campaign: what the user calls the campaign's file.
+        problems: where faults are added.
+    """
+    angle, length = _angle_fault(cell, robot), _length_fault(cell, robot)
+    problems.extend(fault for fault in (angle, length) if fault is not None)
+    reach = reach_of(cell)
+    for name, frame in cell.mounts.items() if length is None else ():
+        size = math.hypot(*frame.xyz)
+        if size > max(TOOL * reach, 1.0):
+            problems.add(
+                f"{campaign}: {name}.xyz: the sensor sits {size:.4g} m from the flange of an arm that reaches "
+                f"{reach:.3g} m; is it in another unit than `units:` says?"
+            )
+
+
+def reach_of(cell: Cell) -> float:
+    """Returns how far [m] the flange gets from the arm's base, prismatic joints drawn in, over drawn configurations."""
+    driven = cell.arm.driven
+    random = np.random.Generator(np.random.Philox(0))
+    joints = random.uniform(-math.pi, math.pi, (DRAWN, len(driven)))
+    for place, joint in enumerate(driven):
+        if joint.type == "prismatic":
+            joints[:, place] = np.clip(0.0, *joint.limits)
+    with np.errstate(all="ignore"):
+        return float(np.max(np.linalg.norm(cell.arm.chain.poses(joints)[:, :3, 3], axis=1), initial=0.0))
+
+
+def _angle_fault(cell: Cell, robot: Robot) -> str | None:
+    """Returns what is wrong with the first angle that cannot be meant in its unit."""
+    units = robot.units or Units()
+    for name, value in _angles(cell):
+        written = value / units.radians
+        if units.angle == "rad" and abs(value) > TURN:
+            return (
+                f"{robot.name}: {name}: got {written:.6g} radians, more than a turn; is it in degrees? "
+                f"{_say(robot, 'angle: deg')}"
+            )
+        if units.angle == "deg" and any(abs(abs(written) - right) < NEARLY * right for right in RIGHT_ANGLES):
+            return (
+                f"{robot.name}: {name}: got {written:.6g} degrees, which is a right angle in radians; expected "
+                f"{math.degrees(written):.6g}, or units: {{angle: rad}} where all angles are in radians"
+            )
+    return None
+
+
+def _length_fault(cell: Cell, robot: Robot) -> str | None:
+    """Returns what is wrong with the arm's lengths, if they cannot be meant in their unit."""
+    units, reach = robot.units or Units(), reach_of(cell)
+    links = dict(_links(cell))
+    longest = max(links, key=lambda name: links[name])
+    others = sum(links.values()) - links[longest]
+    if SMALLEST_ARM_M <= reach <= LARGEST_ARM_M and not (reach > ALONE_M and links[longest] > ALONE * others):
+        return None
+    if links[longest] > max(ALONE_M, ALONE * others):
+        return (
+            f"{robot.name}: {longest}: got {links[longest] / units.metres:.6g} {units.length}, "
+            f"{links[longest] / max(others, 1e-3):,.0f} times all other links together; is it in another unit than the "
+            "rest?"
+        )
+    other = "mm" if reach > 1.0 else "m"
+    return (
+        f"{robot.name}: d and a, read in {NAMES[units.length]}, make an arm that reaches {reach:.4g} m; are they in "
+        f"{NAMES[other]}? {_say(robot, f'length: {other}')}"
+    )
+
+
+def _angles(cell: Cell) -> Iterator[tuple[str, float]]:
+    for joint in cell.arm.joints:
+        for number in ("alpha", "theta", "beta"):
+            yield f"{joint.name}.{number}", float(getattr(joint, number))
+
+
+def _links(cell: Cell) -> Iterator[tuple[str, float]]:
+    for joint in cell.arm.joints:
+        for number in ("a", "d"):
+            yield f"{joint.name}.{number}", abs(float(getattr(joint, number)))
+    for name, frame in (("root.xyz", cell.arm.root), ("tip.xyz", cell.arm.tip)):
+        yield name, math.hypot(*frame.xyz)
+
+
+def _say(robot: Robot, unit: str) -> str:
+    return "A URDF is in metres and radians" if robot.units is None else f"Say units: {{{unit}}} in that file"
