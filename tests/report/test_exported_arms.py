@@ -302,3 +302,11 @@ def test_what_stands_before_the_first_axis_of_a_modified_table_is_in_the_shoulde
 def test_the_rows_of_a_table_without_root_and_tip_have_no_comments_below():
     arm = catalogue.load("ur10")
     assert "#" not in export(result_of(arm, arm), "dh", table=True).content
+
+
+@pytest.mark.parametrize("name", FACTORY)
+def test_a_urdf_made_of_a_factory_table_has_short_origins(name, tmp_path):
+    arm = factory_arm(name)
+    (tmp_path / "a.urdf").write_text(export(result_of(arm, arm), "urdf").content)
+    chain = read_urdf(tmp_path / "a.urdf").chain
+    assert max(abs(value) for joint in chain.joints for value in joint.origin.xyz) < 0.62

@@ -42,7 +42,7 @@ def in_convention(arm: Arm, convention: Convention, like: Arm | None = None) -> 
 
 
 def largest_difference(one: Arm, other: Arm) -> tuple[float, float]:
-    """Returns the largest distance [m] and angle [rad] between two arms' tools over configurations within the limits."""
+    """Returns the largest distance [m] and angle [rad] between two arms' tools within the limits."""
     joints = configurations(one)
     ours, theirs = one.forward_kinematics(joints), other.forward_kinematics(joints)
     shift = np.linalg.norm(ours[:, :3, 3] - theirs[:, :3, 3], axis=1)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
 from boresight.arm import HARMONICS, SAG, Arm
+from boresight.arm.conditioning import well_conditioned
 from boresight.arm.conventions import Convention
 from boresight.arm.screws import Screws, screws_of
 from boresight.arm.serial import chain_of
@@ -100,7 +101,7 @@ def _comment(stored: StoredResult) -> str:
 
 
 def _new_urdf(stored: StoredResult) -> str:
-    arm = in_convention(stored.identified, "standard-dh")
+    arm = well_conditioned(in_convention(stored.identified, "standard-dh"))
     return dump_urdf(
         chain_of(arm), f"{_comment(stored)}. Links have no shape and no mass; limits no effort, no velocity."
     )
