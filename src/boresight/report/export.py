@@ -23,6 +23,7 @@ from boresight.files.universal_robots import (
 from boresight.files.urdf_writing import dump_urdf
 from boresight.geometry import Frame
 from boresight.report.converting import in_convention, largest_difference
+from boresight.report.frames_beside import in_words
 from boresight.report.link_table import link_table
 from boresight.report.stored import StoredResult
 from boresight.units import in_millimetres
@@ -61,6 +62,14 @@ def export(stored: StoredResult, to: Format, convention: Convention | None = Non
     Raises:
         InputError: that format cannot hold this arm exactly.
     """
+    found = _with_bends(stored, to, convention, table)
+    if to == "json":
+        return found  # which has the frames
+    return replace(found, notes=(*found.notes, *in_words(stored.frames, stored.identified)))
+
+
+def _with_bends(stored: StoredResult, to: Format, convention: Convention | None, table: bool) -> Export:
+    """Returns the export of an arm, without what turns its joints beside their readings where a format has no place."""
     if not stored.identified.is_bent:
         return _exported(stored, to, convention, table)
     if to == "json" or (to == "dh" and not table and convention in (None, stored.identified.convention)):
@@ -80,7 +89,8 @@ def _exported(stored: StoredResult, to: Format, convention: Convention | None, t
         return Export(stored.urdf if stored.urdf is not None else _new_urdf(stored))
     if to == "dh":
         arm = in_convention(stored.identified, convention or stored.identified.convention)
-        return Export(*link_table(arm)) if table else Export(dump_robot(arm, _comment(stored)))
+        beside = in_words(stored.frames, stored.identified)
+        return Export(*link_table(arm, beside)) if table else Export(dump_robot(arm, _comment(stored)))
     if to == "json":
         return Export(json.dumps(_document(stored), indent=2, ensure_ascii=False, allow_nan=False) + "\n")
     if to == "pal":
@@ -97,13 +107,14 @@ def _exported(stored: StoredResult, to: Format, convention: Convention | None, t
 
 def _comment(stored: StoredResult) -> str:
     verdict = "accepted" if stored.accepted else "REJECTED: do not use it for work"
-    return f"{stored.name}, calibrated by Boresight ({verdict})"
+    first = f"{stored.name}, calibrated by Boresight ({verdict})"
+    return "\n".join([first, *in_words(stored.frames, stored.identified)])
 
 
 def _new_urdf(stored: StoredResult) -> str:
     arm = well_conditioned(in_convention(stored.identified, "standard-dh"))
     return dump_urdf(
-        chain_of(arm), f"{_comment(stored)}. Links have no shape and no mass; limits no effort, no velocity."
+        chain_of(arm), f"{_comment(stored)}\nLinks have no shape and no mass; limits no effort, no velocity."
     )
 
 
@@ -152,6 +163,13 @@ def _document(stored: StoredResult) -> dict[str, Any]:
         "identified": _forms(stored.identified.rigid),
         "beyond_geometry": _bends(stored.identified),
         "urdf_origins": list(stored.origins) or None,
+        "frames": {
+            frame.name: {
+                "stated": None if frame.stated is None else _frame(frame.stated),
+                "identified": _frame(frame.identified),
+            }
+            for frame in stored.frames
+        },
     }
 
 

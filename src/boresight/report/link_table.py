@@ -9,10 +9,10 @@ from boresight.arm import Arm
 from boresight.geometry import Frame
 
 
-def link_table(arm: Arm) -> tuple[str, tuple[str, ...]]:
+def link_table(arm: Arm, beside: tuple[str, ...] = ()) -> tuple[str, tuple[str, ...]]:
     """Returns the text of a table with a row a joint [m and rad], and what it has no column for, a sentence each.
 
-    These sentences stand as comments below the rows, so that the table does not lose them.
+    These sentences, and those of what else is `beside` the arm, stand as comments below the rows.
     """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -20,7 +20,7 @@ def link_table(arm: Arm) -> tuple[str, tuple[str, ...]]:
     for joint in arm.joints:
         writer.writerow([joint.name, joint.type, *(repr(value) for value in joint.numbers.values())])
     notes = tuple(_beside_the_rows(arm))
-    return text.getvalue() + "".join(f"# {note}\n" for note in notes), notes
+    return text.getvalue() + "".join(f"# {note}\n" for note in (*notes, *beside)), notes
 
 
 def _beside_the_rows(arm: Arm) -> list[str]:
