@@ -182,7 +182,10 @@ def test_what_turns_joints_beside_their_readings_is_exported_or_said_to_be_missi
     assert not bent.nominal.is_bent
     whole = boresight("export", "bent", "--to", "dh")
     assert "sag:" in whole.out
-    assert whole.err == ""
+    assert "geometry alone" not in whole.err
+    frames = json.loads(boresight("export", "bent", "--to", "json").out)["frames"]
+    assert "`base` was estimated too and is not in this format: it stands in the world at xyz" in whole.err
+    assert frames["base"]["stated"] is None
     assert json.loads(boresight("export", "bent", "--to", "json").out)["beyond_geometry"]["joints"]["panda_joint2"]
     for to in ("urdf", "dh --convention standard-dh"):
         said = boresight("export", "bent", "--to", *to.split())

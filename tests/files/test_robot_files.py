@@ -9,6 +9,7 @@ from boresight.arm import Arm, Joint
 from boresight.errors import InputError
 from boresight.files import dump_robot, load_robot
 from boresight.geometry import Frame
+from factory_arms import factory_arm
 
 
 @pytest.fixture
@@ -134,3 +135,19 @@ def test_a_robot_is_written_to_the_bit(robot):
 def test_the_header_cannot_leave_its_comment():
     text = dump_robot(Arm("a", (Joint("j"),)), "one\nname: two\r\nthree")
     assert text.splitlines()[:4] == ["# one", "# name: two", "# three", 'name: "a"']
+
+
+def test_a_campaigns_table_of_nearly_parallel_axes_gets_lengths_of_its_own_size(folder, campaign_with):
+    campaign = campaign_with()
+    robot = dump_robot(factory_arm("ur10e, 439 m"))
+    names = "j1,j2,j3,j4,j5,j6,range"
+    folder.write(robot=robot, campaign=campaign, **{"observations.csv": f"{names}\n0.1,0.2,0.3,0.4,0.5,0.6,0.7\n"})
+    loaded = folder.load()
+    arm = loaded.cell.arm
+    assert max(abs(length) for joint in arm.joints for length in (joint.d, joint.a)) < 0.62
+    (note,) = (note for note in loaded.notes if "nearly parallel" in note)
+    assert note == (
+        "robot.yaml: nearly parallel axes carry lengths up to 446 m; the arm is calibrated and written with beta in "
+        "place of d there, none of its lengths above 0.61 m. It moves the same."
+    )
+    assert dump_robot(load_robot("robot.yaml")) == robot  # read alone, a table stays as it is to the bit

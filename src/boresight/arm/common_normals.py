@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from jaxtyping import Float
@@ -57,12 +58,12 @@ def standard_dh(screws: Screws, parallel_below: float = NEARLY_PARALLEL, like: A
     return Arm(screws.name, joints, "standard-dh", _frame(root), _frame(inverse(end) @ screws.home))
 
 
-def modified_dh(screws: Screws, parallel_below: float = NEARLY_PARALLEL) -> Arm:
+def modified_dh(screws: Screws, parallel_below: float = NEARLY_PARALLEL, like: Arm | None = None) -> Arm:
     """Returns an arm in modified D-H (Craig) with beta that moves as the screws do; see `standard_dh`.
 
     Modified numbers are the standard ones of the arm seen from its tool, each with the other sign.
     """
-    back = standard_dh(_reversed(screws), parallel_below)
+    back = standard_dh(_reversed(screws), parallel_below, None if like is None else _thetas_from_the_tool(like))
     joints = tuple(
         joint.with_numbers({name: -value + 0.0 for name, value in joint.numbers.items()})
         for joint in reversed(back.joints)
@@ -174,6 +175,11 @@ def _frame(T: Float[np.ndarray, "4 4"]) -> Frame:
 
 def _tidy(number: float) -> float:
     return float(number) if abs(number) > _ROUNDING else 0.0
+
+
+def _thetas_from_the_tool(arm: Arm) -> Arm:
+    """Returns a modified arm's angles as the standard arm has them that is seen from its tool."""
+    return Arm(arm.name, tuple(replace(joint, theta=-joint.theta) for joint in reversed(arm.joints)))
 
 
 def _reversed(screws: Screws) -> Screws:

@@ -121,14 +121,15 @@ def corrected_chain(chain: SerialChain, nominal: Arm, identified: Arm) -> Serial
 
     How far along and about its axis a joint's frame stands moves nothing by itself; it is kept, but for the joint's
     own theta and d. So a joint's origin changes only with its own theta and d, and a, alpha and beta of the link
-    before; those of the last link move the last fixed joint. All other origins stay the same objects.
+    before; those of the last link move the last fixed joint. All other origins stay the same objects. Where
+    the arms differ before the first axis or behind the last link, as conversions between conventions may leave them,
+    the first joint and the last fixed one take it up.
 
     Args:
         chain: as it was read.
         nominal: its arm, `chain.arm`.
         identified: the same with other numbers.
     """
-    assert (identified.root, identified.tip) == (nominal.root, nominal.tip), "root and tip are no parameters"
     old = _places(chain)
     moving = [place for place, joint in enumerate(chain.joints) if joint.type != "fixed"]
     frames, changed = _new_frames(chain, [old[place] for place in moving], nominal, identified)
@@ -157,7 +158,7 @@ def _new_frames(
 ) -> tuple[list[Float[np.ndarray, "4 4"]], list[bool]]:
     """Returns where every moving joint's frame, and at last the tip, stand at zero readings, and which are new."""
     frames, changed = [], []
-    before, after, link_changed = nominal.root.matrix, identified.root.matrix, False
+    before, after, link_changed = nominal.root.matrix, identified.root.matrix, nominal.root != identified.root
     for joint, T, was, now in zip(chain.moving, old, nominal.joints, identified.joints, strict=True):
         slip = link_transform(now.theta - was.theta, now.d - was.d, 0.0, 0.0, 0.0)
         turn = np.eye(4)
@@ -168,7 +169,7 @@ def _new_frames(
         link_changed = (was.a, was.alpha, was.beta) != (now.a, now.alpha, now.beta)
         before = before @ link_transform(was.theta, was.d, was.a, was.alpha, was.beta)
         after = after @ link_transform(now.theta, now.d, now.a, now.alpha, now.beta)
-    return [*frames, after @ identified.tip.matrix], [*changed, link_changed]
+    return [*frames, after @ identified.tip.matrix], [*changed, link_changed or nominal.tip != identified.tip]
 
 
 def _places(chain: SerialChain) -> list[Float[np.ndarray, "4 4"]]:

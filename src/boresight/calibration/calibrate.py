@@ -19,6 +19,7 @@ from boresight.calibration.holdout import by_cross_validation, on_validation_row
 from boresight.calibration.left_out import left_out, left_out_in_words
 from boresight.calibration.missing import find_missing
 from boresight.calibration.model_error import model_error
+from boresight.calibration.moved_base import moved_base_in_words
 from boresight.calibration.noise_size import noise_size
 from boresight.calibration.outliers import find_outliers
 from boresight.calibration.placement import find_frames
@@ -176,6 +177,7 @@ def _calibrated(campaign: Campaign, solver: Solver, on_progress: Progress | None
         notes=(
             *campaign.notes,
             *_notes(campaign, identified, solver),
+            *moved_base_in_words(campaign, identified),
             *beyond_in_words(beyond),
             *left_out_in_words(left_out(campaign, nominal, freedoms)),
         ),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 
 from boresight.arm import Arm
+from boresight.arm.conditioning import well_conditioned
 from boresight.calibration.campaign import RobotFile
 from boresight.errors import InputError, did_you_mean
 from boresight.files.composing import KeyPath
@@ -38,7 +39,7 @@ class RobotOf:
             robot = read_document(path, name, place)
             self._inputs[name] = robot.sha256
             self.called = Robot(name, units_of(robot))
-            return arm_of(robot)
+            return self._with_short_lengths(arm_of(robot), name)
         self.file = read_urdf(path, name, place, self._choice.base, self._choice.tip)
         self._inputs[name] = hashlib.sha256(self.file.content).hexdigest()
         chain = self.file.chain
@@ -50,6 +51,18 @@ class RobotOf:
                 "joint behind it to hold their corrections. Errors of the sensor's place are mount's.",
             )
         return chain.arm
+
+    def _with_short_lengths(self, arm: Arm, name: str) -> Arm:
+        """Returns the arm of a table, whose nearly parallel axes may carry lengths far beyond its own, and says so."""
+        found = well_conditioned(arm)
+        if found is not arm:
+            longest = max(max(abs(joint.d), abs(joint.a)) for joint in arm.joints)
+            now = max(max(abs(joint.d), abs(joint.a)) for joint in found.joints)
+            self.notes = (
+                f"{name}: nearly parallel axes carry lengths up to {longest:.4g} m; the arm is calibrated and written "
+                f"with beta in place of d there, none of its lengths above {now:.2g} m. It moves the same.",
+            )
+        return found
 
 
 def _of_catalogue(wanted: str, place: str) -> Arm:

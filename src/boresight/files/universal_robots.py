@@ -37,10 +37,12 @@ class UniversalChain:
 
     Attributes:
         nominal, identified: from UR's base to the tool; the tool's fixed joint comes last.
+        turn: angle [rad] about z by which UR's base is turned in the arm's own.
     """
 
     nominal: SerialChain
     identified: SerialChain
+    turn: float = 0.0
 
 
 def is_universal(arm: Arm) -> bool:
@@ -63,22 +65,34 @@ def universal_chain(nominal: Arm, identified: Arm) -> UniversalChain:
     if np.linalg.norm(normal[:2]) < 0.1:
         raise InputError(f"{nominal.name}: the first two axes are not at an angle as UR's are; export to urdf instead")
     # UR's x of the base lies along the common normal of the first two axes, so that theta is 0 at zero.
-    turn = link_transform(math.atan2(normal[1], normal[0]), 0.0, 0.0, 0.0, 0.0)
+    angle = math.atan2(normal[1], normal[0])
+    turn = link_transform(angle, 0.0, 0.0, 0.0, 0.0)
     seen = chain_of(standard_dh(screws.seen_from(inverse(turn))))
     both = [corrected_chain(_moved(seen, turn), nominal, arm) for arm in (nominal, identified)]
-    return UniversalChain(*(_moved(chain, inverse(turn)) for chain in both))
+    before, after = (_moved(chain, inverse(turn)) for chain in both)
+    return UniversalChain(before, after, turn=angle if abs(angle) > _STILL else 0.0)
 
 
 def universal_blocks(chain: UniversalChain) -> tuple[dict[str, Frame], tuple[str, ...]]:
     """Returns the six transforms of a kinematics file, and what a person should know about them."""
     *joints, tool = chain.identified.joints
-    notes = []
+    notes = _turned_base(chain)
     if not _is_nothing(tool.origin):
         notes.append(
             f"This format ends at the last joint. Behind it the tool stands at {_in_words(tool.origin)}: add that to "
             "the tool's own transform."
         )
     return dict(zip(LINKS, (joint.origin for joint in joints), strict=True)), tuple(notes)
+
+
+def _turned_base(chain: UniversalChain) -> list[str]:
+    """Returns what a person should know about the base of the format, nothing where it is the arm's own."""
+    if not chain.turn:
+        return []
+    return [
+        f"This format's base frame is the arm's own turned by {chain.turn:.9g} rad about z, so that the first joint "
+        "stands at 0 as UR's does."
+    ]
 
 
 def kinematics_yaml(blocks: Mapping[str, Frame], header_comment: str, notes: Sequence[str] = ()) -> str:
@@ -120,9 +134,9 @@ def calibration_conf(chain: UniversalChain, header_comment: str) -> str:
             f"{chain.nominal.name}: D-H without beta cannot hold this arm: its poses would be off by {error:.2g} (m or "
             f"rad). {_why(chain)} Export to ur-kinematics or urdf instead"
         )
-    lines = [f"# {line}" for line in header_comment.splitlines()]
+    lines = [f"# {line}" for line in (*header_comment.splitlines(), *_turned_base(chain))]
     lines.append("# Added to this nominal table (theta, d, a, alpha; rad and m):")
-    lines += [f"#   {j.name}: {j.theta:.9g}, {j.d:.9g}, {j.a:.9g}, {j.alpha:.9g}" for j in before.joints]
+    lines += [f"#   {j.name}: {j.theta!r}, {j.d!r}, {j.a!r}, {j.alpha!r}" for j in before.joints]
     if any(abs(b.d - a.d) > _FAR for a, b in zip(before.joints, after.joints, strict=True)):
         lines.append("# Nearly parallel axes meet their common normal far away: deltas of d that cancel are in order.")
     lines.append("[mounting]")

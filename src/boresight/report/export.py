@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
 from boresight.arm import HARMONICS, SAG, Arm
-from boresight.arm.common_normals import modified_dh, standard_dh
+from boresight.arm.conditioning import well_conditioned
 from boresight.arm.conventions import Convention
 from boresight.arm.screws import Screws, screws_of
 from boresight.arm.serial import chain_of
@@ -24,7 +22,11 @@ from boresight.files.universal_robots import (
 )
 from boresight.files.urdf_writing import dump_urdf
 from boresight.geometry import Frame
+from boresight.report.converting import in_convention, largest_difference
+from boresight.report.frames_beside import in_words
+from boresight.report.link_table import link_table
 from boresight.report.stored import StoredResult
+from boresight.units import in_millimetres
 
 Format = Literal["urdf", "dh", "ur-kinematics", "ur-calibration-conf", "pal", "json"]
 FORMATS: tuple[str, ...] = get_args(Format)
@@ -60,15 +62,24 @@ def export(stored: StoredResult, to: Format, convention: Convention | None = Non
     Raises:
         InputError: that format cannot hold this arm exactly.
     """
+    found = _with_bends(stored, to, convention, table)
+    if to == "json":
+        return found  # which has the frames
+    return replace(found, notes=(*found.notes, *in_words(stored.frames, stored.identified)))
+
+
+def _with_bends(stored: StoredResult, to: Format, convention: Convention | None, table: bool) -> Export:
+    """Returns the export of an arm, without what turns its joints beside their readings where a format has no place."""
     if not stored.identified.is_bent:
         return _exported(stored, to, convention, table)
     if to == "json" or (to == "dh" and not table and convention in (None, stored.identified.convention)):
         return _exported(stored, to, convention, table)
     rigid = replace(stored, nominal=stored.nominal.rigid, identified=stored.identified.rigid)
     found = _exported(rigid, to, convention, table)
+    shift, _ = largest_difference(rigid.identified, stored.identified)
     note = (
         "This format holds the geometry alone; what turns the joints beside their readings, gravity's sag and "
-        "harmonics, is in robot-calibrated.yaml."
+        f"harmonics, is in robot-calibrated.yaml. Without it the tool is off by up to {in_millimetres(shift)}."
     )
     return replace(found, notes=(*found.notes, note))
 
@@ -78,46 +89,33 @@ def _exported(stored: StoredResult, to: Format, convention: Convention | None, t
         return Export(stored.urdf if stored.urdf is not None else _new_urdf(stored))
     if to == "dh":
         arm = in_convention(stored.identified, convention or stored.identified.convention)
-        return Export(_table(arm) if table else dump_robot(arm, _comment(stored)))
+        beside = in_words(stored.frames, stored.identified)
+        return Export(*link_table(arm, beside)) if table else Export(dump_robot(arm, _comment(stored)))
     if to == "json":
         return Export(json.dumps(_document(stored), indent=2, ensure_ascii=False, allow_nan=False) + "\n")
     if to == "pal":
         return Export(_pal(stored))
     if to == "ur-kinematics" and stored.origins and not is_universal(stored.nominal):
         return _own_blocks(stored)
-    chain = universal_chain(*(in_convention(arm, "standard-dh") for arm in (stored.nominal, stored.identified)))
+    nominal = in_convention(stored.nominal, "standard-dh")
+    chain = universal_chain(nominal, in_convention(stored.identified, "standard-dh", like=nominal))
     if to == "ur-calibration-conf":
         return Export(calibration_conf(chain, _comment(stored)))
     blocks, notes = universal_blocks(chain)
     return Export(kinematics_yaml(blocks, _comment(stored), notes), notes)
 
 
-def in_convention(arm: Arm, convention: Convention) -> Arm:
-    """Returns the arm itself, or one in another convention that moves as it does."""
-    if arm.convention == convention:
-        return arm
-    return (standard_dh if convention == "standard-dh" else modified_dh)(screws_of(arm))
-
-
 def _comment(stored: StoredResult) -> str:
     verdict = "accepted" if stored.accepted else "REJECTED: do not use it for work"
-    return f"{stored.name}, calibrated by Boresight ({verdict})"
+    first = f"{stored.name}, calibrated by Boresight ({verdict})"
+    return "\n".join([first, *in_words(stored.frames, stored.identified)])
 
 
 def _new_urdf(stored: StoredResult) -> str:
-    arm = in_convention(stored.identified, "standard-dh")
+    arm = well_conditioned(in_convention(stored.identified, "standard-dh"))
     return dump_urdf(
-        chain_of(arm), f"{_comment(stored)}. Links have no shape and no mass; limits no effort, no velocity."
+        chain_of(arm), f"{_comment(stored)}\nLinks have no shape and no mass; limits no effort, no velocity."
     )
-
-
-def _table(arm: Arm) -> str:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["joint", "type", "theta_rad", "d_m", "a_m", "alpha_rad", "beta_rad"])
-    for joint in arm.joints:
-        writer.writerow([joint.name, joint.type, *(repr(value) for value in joint.numbers.values())])
-    return text.getvalue()
 
 
 def _pal(stored: StoredResult) -> str:
@@ -165,6 +163,13 @@ def _document(stored: StoredResult) -> dict[str, Any]:
         "identified": _forms(stored.identified.rigid),
         "beyond_geometry": _bends(stored.identified),
         "urdf_origins": list(stored.origins) or None,
+        "frames": {
+            frame.name: {
+                "stated": None if frame.stated is None else _frame(frame.stated),
+                "identified": _frame(frame.identified),
+            }
+            for frame in stored.frames
+        },
     }
 
 
@@ -205,6 +210,7 @@ def _exponentials(screws: Screws) -> dict[str, Any]:
     return {
         "joints": [
             {"name": joint.name, "v": joint.twist[:3].tolist(), "w": joint.twist[3:].tolist()}
+            | ({"follows": joint.follows, "ratio": joint.ratio} if joint.follows else {})
             for joint in screws.joints
         ],
         "home": screws.home.tolist(),

@@ -15,6 +15,7 @@ from boresight.files.problems import printable
 from boresight.files.sources import read_source
 from boresight.report.document import SCHEMA
 from boresight.report.folder import RESULT_FILE
+from boresight.report.frames_beside import EstimatedFrame, estimated_frames
 
 LIMIT_MIB = 64
 
@@ -32,6 +33,7 @@ class StoredResult:
         identified: the arm after it.
         urdf: the bytes of the calibrated URDF, or None where the arm came as a table.
         origins: of the URDF's joints, each with `joint`, `type`, `nominal` and `identified`; empty without a URDF.
+        frames: those that were estimated beside the arm.
     """
 
     folder: Path
@@ -42,6 +44,7 @@ class StoredResult:
     identified: Arm
     urdf: bytes | None
     origins: tuple[Mapping[str, Any], ...]
+    frames: tuple[EstimatedFrame, ...] = ()
 
 
 def load_result(folder: Path) -> StoredResult:
@@ -70,6 +73,7 @@ def load_result(folder: Path) -> StoredResult:
             identified=identified,
             urdf=None if described is None else _bytes(folder / "robot-calibrated.urdf"),
             origins=() if described is None else tuple(described["origins"]),
+            frames=estimated_frames(document),
         )
     except (KeyError, TypeError, AttributeError) as error:
         raise InputError(f"{folder / RESULT_FILE}: not a result of this version of Boresight ({error})") from None
