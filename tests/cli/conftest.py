@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import pytest
 from example_files import EXAMPLES, Files
 
-from boresight.cli.app import main
+from boresight.cli.main import main
 
 
 @dataclass(frozen=True)

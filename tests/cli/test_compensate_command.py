@@ -103,3 +103,50 @@ def test_a_folder_that_is_no_result_is_refused(boresight, calibrated):
     assert "rejected" in said.err
     (calibrated / "result" / "result.json").write_text("[]")
     assert "expected boresight-result" in boresight("compensate", "result", "program.csv").err
+
+
+def test_rotation_vectors_are_the_same_orientations_as_quaternions(boresight, calibrated):
+    turn = np.array([0.3, -0.2, 0.5])
+    angle = np.linalg.norm(turn)
+    q = np.array([np.cos(angle / 2), *(np.sin(angle / 2) * turn / angle)])
+    (calibrated / "vectors.csv").write_text("x,y,z,rx,ry,rz\n0.4,0.1,0.5,0.3,-0.2,0.5\n")
+    (calibrated / "quaternions.csv").write_text(
+        "x,y,z,qw,qx,qy,qz\n0.4,0.1,0.5," + ",".join(map(repr, q.tolist())) + "\n"
+    )
+    rows = []
+    for name in ("vectors", "quaternions"):
+        assert boresight("compensate", "result", f"{name}.csv", "-o", f"{name}-out.csv").code == 0
+        rows.append([float(read(calibrated / f"{name}-out.csv")[0][f"j{n}"]) for n in range(1, 7)])
+    np.testing.assert_allclose(rows[0], rows[1], atol=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (
+            "j1,j2,j3,j4,j5,j6\n0,-90,90,-90,-90,0\n",
+            "reads -90, too much for radians; if the file is in degrees, say --angle",
+        ),
+        ("x,y,z\n400,200,300\n", "if they are in mm, say --length mm"),
+        ("x,y,z,rx,ry,rz\n0.4,0.2,0.3,0,180,0\n", "up to 180 rad long, more than a turn; if it is in degrees"),
+        ("x,y,z,roll,pitch,yaw\n0.4,0.2,0.3,0,1,0\n", "'roll', 'pitch', 'yaw' looks like an orientation"),
+        ("x,y,z,A,B,C\n0.4,0.2,0.3,0,1,0\n", "expected a quaternion qw, qx, qy, qz, or a rotation vector rx, ry, rz"),
+        ("x,y,z,rx,ry,rz,qw,qx,qy,qz\n0.4,0.2,0.3,0,1,0,1,0,0,0\n", "expected one or the other"),
+        ("x,y,z\n0.4,0.2,1_0\n", "z: got '1_0'; expected a finite number"),
+    ],
+)
+def test_what_cannot_be_meant_so_is_refused(boresight, calibrated, text, told):
+    (calibrated / "poses.csv").write_text(text)
+    said = boresight("compensate", "result", "poses.csv", "-o", "out.csv")
+    assert (said.code, said.out) == (1, "")
+    assert told in said.err
+    assert not (calibrated / "out.csv").exists()
+
+
+def test_columns_that_are_handed_on_and_orientations_left_free_are_told(boresight, calibrated):
+    (calibrated / "poses.csv").write_text("X;Y;Z;note\n0,4;0,1;0,5;here\n")
+    said = " ".join(boresight("compensate", "result", "poses.csv", "-o", "out.csv").out.split())
+    assert "separated by semicolons; numbers have decimal commas; columns are read as the names that are known" in said
+    assert "there are positions and no orientations, which are left free" in said
+    assert "columns that mean nothing here are handed on as they are: note" in said
+    assert read(calibrated / "out.csv")[0]["note"] == "here"

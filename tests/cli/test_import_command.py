@@ -150,3 +150,48 @@ def test_a_source_that_is_not_there(boresight, name):
 
 def test_the_robot_of_the_shipped_bag_loads():
     assert load_robot(EXAMPLES / "ros-bag" / "arm.urdf").joint_names == ("j1", "j2", "j3", "j4", "j5", "j6")
+
+
+TWO_TIPS = (
+    '<link name="camera"/><joint name="of_camera" type="fixed"><parent link="{0}"/><child link="camera"/></joint>'
+)
+
+
+def test_a_urdf_with_several_tips_gives_the_joints_that_the_log_has(boresight, tmp_path):
+    text = (EXAMPLES / "ros-bag" / "arm.urdf").read_text()
+    (tmp_path / "tips.urdf").write_text(text.replace("</robot>", TWO_TIPS.format("base_link") + "</robot>"))
+    source = EXAMPLES / "ros-bag" / "run"
+    headers = []
+    for options in (["--robot", "tips.urdf"], ["--robot", "tips.urdf", "--tip", "ranger"]):
+        assert boresight("import", source, *options, "-o", "out.csv", "--overwrite").code == 0
+        headers.append((tmp_path / "out.csv").read_text().splitlines()[1])
+    assert headers[0] == headers[1]
+    assert headers[0].startswith("j1,j2,j3,j4,j5,j6,range")
+
+
+def test_a_campaign_names_the_joints_too(boresight, tmp_path):
+    campaign = EXAMPLES / "ros-bag" / "campaign.yaml"
+    assert boresight("import", EXAMPLES / "ros-bag" / "run", "--campaign", campaign, "-o", "out.csv").code == 0
+    assert "gripper" not in (tmp_path / "out.csv").read_text()
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--tip", "ranger"], "--base and --tip are links of a URDF; name it: --robot arm.urdf"),
+        (["--campaign", "c.yaml", "--tip", "x"], "--campaign names the robot; leave out --robot, --base and --tip"),
+    ],
+)
+def test_options_that_exclude_each_other_are_told(boresight, options, told):
+    said = boresight("import", EXAMPLES / "ros-bag" / "run", *options)
+    assert (said.code, said.err) == (1, f"Error: {told}\n")
+
+
+def test_figarohs_own_time_column_and_joints_of_others_need_nothing(boresight, tmp_path):
+    rows = "".join(f"{k},0.1,0.2,{0.1 * k},{0.1 * k},{0.2 * k},7\n" for k in range(4))
+    (tmp_path / "measured.csv").write_text("t,x1,y1,z1,j1,j2,head\n" + rows)
+    (tmp_path / "robot.yaml").write_text("name: two\njoints: [{name: j1, d: 0.3, alpha: 1.57}, {name: j2, a: 0.4}]\n")
+    said = boresight("import", "measured.csv", "--robot", "robot.yaml")
+    assert said.code == 0
+    assert (tmp_path / "observations.csv").read_text().splitlines()[0] == "time,x,y,z,j1,j2"
+    assert "columns without a meaning here: head" in said.out

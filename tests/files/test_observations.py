@@ -106,20 +106,21 @@ def test_only_twenty_faults_are_listed(problems):
 
 
 def test_an_unknown_column_names_the_nearest_and_a_missing_joint_is_named(problems):
-    unknown, missing = problems("j1,j3,range\n1,2,3\n")
-    assert unknown.startswith("observations.csv, line 1: unknown column 'j3' (did you mean j2?); ")
-    assert missing == "observations.csv, line 1: there is no column for joint j2; the columns are 'j1', 'j3', 'range'"
+    (told,) = problems("j1,j3,range\n1,2,3\n")
+    assert told.startswith(
+        "observations.csv, line 1: unknown column 'j3' (did you mean j2?) and no column for joint j2; expected columns "
+    )
+    (told,) = problems("j1,range\n1,3\n")
+    assert told == "observations.csv, line 1: there is no column for joint j2; the columns are 'j1', 'range'"
 
 
 @pytest.mark.parametrize(
     ("header", "told"),
     [
-        ("j1,j2,range,", "column 4 has no name; is there a comma too many?"),
+        ("j1,j2,,range", "column 3 has no name; is there a comma too many?"),
         ("j1,j2,range,j1", "there are several columns 'j1'; expected one"),
         ("j1,j2,range,distance", "there are columns range and distance, which mean the same"),
         ("j1,j2,range,std,std_range", "there are columns std and std_range"),
-        ("j1;j2;range", "the columns are not separated by commas"),
-        ("j1\tj2\trange", "the columns are not separated by commas"),
         ("j1,j2,rang", "unknown column 'rang' (did you mean range?)"),
         ("j1,j2,range,targte", "unknown column 'targte' (did you mean target?)"),
     ],
@@ -135,7 +136,7 @@ def test_part_of_the_stds_is_not_enough(folder, campaign_with):
 
 def test_a_joint_called_like_a_column_is_refused(folder, robot_with, campaign_with):
     folder.write(robot=robot_with(("j2", "std")), observations="j1,std,range\n1,2,3\n")
-    assert "std is a joint and a column of its own meaning" in folder.problem()
+    assert "robot: joint std is called as a column of the readings is; call it something else" in folder.problem()
 
 
 def test_several_targets_need_a_target_column(folder, two_targets):
@@ -243,7 +244,7 @@ def test_a_file_full_of_faults_is_refused_without_delay(folder, two_targets):
     problems = folder.write(campaign=two_targets, observations="j1,j2,range,target\n" + rows).problems()
     assert problems[-1] == "and 19980 more"
     header = ",".join(f"j{i}" for i in range(20_000))
-    assert len(folder.write(observations=header + "\n").problems()) == 21
+    assert len(folder.write(observations=header + "\n").problems()) == 1
 
 
 def test_a_file_that_is_written_to_while_it_is_read_is_refused(folder, monkeypatch):

@@ -1,3 +1,3 @@
 """The command line: thin, and quick to answer `--help`."""
 
-from boresight.cli.app import main as main
+from boresight.cli.main import main as main

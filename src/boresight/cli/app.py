@@ -1,4 +1,4 @@
-"""The commands and their exit codes.
+"""The commands that calibrate, plan and study, and their exit codes.
 
 0: done, and accepted where there is a verdict; 1: an error in input or usage; 2: the calibration ran and was
 rejected, or poses cannot be reached; 130: interrupted.
@@ -6,24 +6,13 @@ rejected, or poses cannot be reached; 130: interrupted.
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
-from cyclopts import App, CycloptsError, Parameter
+from cyclopts import App, Parameter
 
 from boresight import __version__
-from boresight.cli.codes import INTERRUPTED
-from boresight.cli.consoles import PipedConsole
-from boresight.errors import BoresightError
-
-SolverChoice = Literal["evolution+least-squares", "evolution", "least-squares"]
-StrategyChoice = Literal["trade-off", "rand-to-best/1", "current-to-best/1", "best/1", "rand/1", "downhill"]
-
-DeviceChoice = Literal["cpu", "cuda"]
-PrecisionChoice = Literal["double", "single"]
-FormatChoice = Literal["urdf", "dh", "ur-kinematics", "ur-calibration-conf", "pal", "json"]
-ConventionChoice = Literal["standard-dh", "modified-dh"]
+from boresight.cli.choices import DeviceChoice, PrecisionChoice, Real, SolverChoice, StrategyChoice, Whole, WholeOrNone
 
 app = App(
     name="boresight",
@@ -41,11 +30,11 @@ def calibrate(
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     solver: SolverChoice = "evolution+least-squares",
     strategy: StrategyChoice = "trade-off",
-    population: int | None = None,
-    generations: int = 500,
+    population: WholeOrNone = None,
+    generations: Whole = 500,
     device: DeviceChoice = "cpu",
     precision: PrecisionChoice = "double",
-    seed: int = 0,
+    seed: Whole = 0,
     json: Annotated[bool, Parameter(negative="")] = False,
 ) -> int:
     """Identify the real arm from readings, and say how far to trust it.
@@ -84,8 +73,8 @@ def calibrate(
 def inspect(
     campaign: Path,
     *,
-    rows: int | None = None,
-    seed: int = 0,
+    rows: WholeOrNone = None,
+    seed: Whole = 0,
     json: Annotated[bool, Parameter(negative="")] = False,
 ) -> int:
     """Say what these data could identify, and how well; needs no readings.
@@ -108,10 +97,10 @@ def simulate(
     campaign: Path,
     *,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
-    rows: int | None = None,
-    validation_rows: int = 20,
-    size: float = 1.0,
-    seed: int = 0,
+    rows: WholeOrNone = None,
+    validation_rows: Whole = 20,
+    size: Real = 1.0,
+    seed: Whole = 0,
 ) -> int:
     """Make the readings of an arm whose errors are known: a campaign to rehearse with.
 
@@ -131,119 +120,16 @@ def simulate(
 
 
 @app.command
-def compensate(
-    result: Path,
-    poses: Path,
-    *,
-    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
-    controller_poses: Annotated[bool, Parameter(negative="")] = False,
-    position_only: Annotated[bool, Parameter(negative="")] = False,
-    length: Literal["m", "mm"] = "m",
-    angle: Literal["rad", "deg"] = "rad",
-    overwrite: Annotated[bool, Parameter(negative="")] = False,
-    json: Annotated[bool, Parameter(negative="")] = False,
-) -> int:
-    """Find the joint commands that put the calibrated arm where the nominal one was asked to go.
-
-    Args:
-        result: folder of a calibration's result.
-        poses: CSV of the program: a column a joint, or poses of the flange in the arm's base frame (x, y, z with or
-            without qw, qx, qy, qz), or both; other columns are handed on.
-        output: CSV to write; POSES-compensated.csv in the present folder by default.
-        controller_poses: write poses to command to a controller that keeps the nominal model, not joint readings.
-        position_only: leave orientation free.
-        length: unit of lengths in both files.
-        angle: unit of angles in both files.
-        overwrite: replace the output if it is there.
-        json: print a summary as JSON.
-    """
-    from boresight.cli.compensate import run_compensate
-
-    return run_compensate(
-        result,
-        poses,
-        output,
-        controller_poses=controller_poses,
-        position_only=position_only,
-        length=length,
-        angle=angle,
-        overwrite=overwrite,
-        as_json=json,
-    )
-
-
-@app.command(name="import")
-def import_(
-    source: Path,
-    *,
-    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
-    robot: Path | None = None,
-    joints: Annotated[list[str] | None, Parameter(negative="")] = None,
-    range: str | None = None,
-    position: str | None = None,
-    target: str | None = None,
-    targets: str | None = None,
-    time_offset: float = 0.0,
-    still_speed: float = 1e-3,
-    still_time: float = 0.5,
-    settle: float = 0.3,
-    joint_file: Path | None = None,
-    marker: int | None = None,
-    overwrite: Annotated[bool, Parameter(negative="")] = False,
-    json: Annotated[bool, Parameter(negative="")] = False,
-) -> int:
-    """Make an observations.csv, in metres and radians, of a ROS 2 bag, or of FIGAROH's or Leica's CSV.
-
-    Of a bag, every time the arm stands still becomes a row: joints and readings are paired by their time stamps
-    and averaged.
-
-    Args:
-        source: a rosbag2 folder, an .mcap or .db3 file, or a CSV.
-        output: CSV to write; observations.csv in the present folder by default.
-        robot: robot.yaml whose joints become the columns; every joint of the source by default.
-        joints: topic of sensor_msgs/JointState; may be given several times. The only one by default.
-        range: topic of sensor_msgs/Range, or of std_msgs/Float64 or Float32 in metres. The only one by default.
-        position: topic of geometry_msgs/PointStamped, the positions of a tracker, in place of ranges.
-        target: what the ranger pointed at, for the column target.
-        targets: topic of std_msgs/String that names the target from then on; one called target by default.
-        time_offset: seconds to add to the readings' time stamps.
-        still_speed: a joint slower than this [rad/s or m/s] stands still.
-        still_time: seconds that a pause lasts at least, after settling.
-        settle: seconds to leave out at the beginning of a pause.
-        joint_file: CSV of joint readings to pair a Leica export with: row by row, or by its column time.
-        marker: which of several markers of a FIGAROH file.
-        overwrite: replace the output if it is there.
-        json: print a summary as JSON.
-    """
-    from boresight.cli.importing import run_import
-    from boresight.files.topics import Choice
-    from boresight.recordings import Rules
-
-    rules = Rules(still_speed, still_time, settle)
-    choice = Choice(tuple(joints or ()), range, position, target, targets, time_offset, rules)
-    return run_import(
-        source,
-        output,
-        choice,
-        robot=robot,
-        joint_file=joint_file,
-        marker=marker,
-        overwrite=overwrite,
-        as_json=json,
-    )
-
-
-@app.command
 def study(
     study: Path,
     *,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
-    workers: int | None = None,
+    workers: WholeOrNone = None,
     scheduler: str | None = None,
     shard: str | None = None,
     device: DeviceChoice = "cpu",
     precision: PrecisionChoice = "double",
-    seeds: int | None = None,
+    seeds: WholeOrNone = None,
     merge: list[Path] | None = None,
     summary: Annotated[bool, Parameter(negative="")] = False,
     json: Annotated[bool, Parameter(negative="")] = False,
@@ -289,9 +175,9 @@ def reproduce(
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"])] = Path("reproduction"),
     quick: Annotated[bool, Parameter(negative="")] = False,
-    seeds: int | None = None,
-    seed: int = 0,
-    workers: int | None = None,
+    seeds: WholeOrNone = None,
+    seed: Whole = 0,
+    workers: WholeOrNone = None,
 ) -> int:
     """Do the paper's simulations again: its tables, figures and statements beside what is measured.
 
@@ -307,57 +193,3 @@ def reproduce(
     from boresight.cli.reproduce import run_reproduce
 
     return run_reproduce(output, quick=quick, seeds=seeds, seed=seed, workers=workers)
-
-
-@app.command
-def export(
-    result: Path,
-    *,
-    to: FormatChoice,
-    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
-    convention: ConventionChoice | None = None,
-    even_if_rejected: Annotated[bool, Parameter(negative="")] = False,
-    overwrite: Annotated[bool, Parameter(negative="")] = False,
-) -> int:
-    """Hand the identified arm to a planner or controller: URDF, D-H, and the formats of UR and PAL.
-
-    Args:
-        result: the folder that calibrate wrote.
-        to: urdf: the URDF that was calibrated, or a new one; dh: a robot.yaml, or a table where the output ends
-            in .csv; ur-kinematics: six transforms for a driver; ur-calibration-conf: deltas of D-H for a
-            controller; pal: deltas of a URDF's origins; json: every form at once.
-        output: the file to write; standard output by default.
-        convention: of dh; the arm's own by default.
-        even_if_rejected: export a result that was rejected.
-        overwrite: replace the output file if there is one.
-    """
-    from boresight.cli.export import run_export
-
-    return run_export(result, to, output, convention=convention, even_if_rejected=even_if_rejected, overwrite=overwrite)
-
-
-def main() -> None:
-    """Runs the command line and exits with its code."""
-    try:
-        # cyclopts itself would exit with 2, which here means a rejected result.
-        code = app(sys.argv[1:], result_action="return_value", exit_on_error=False, console=PipedConsole())
-    except CycloptsError:
-        code = 1
-    except BoresightError as error:
-        _say(error)
-        code = 1
-    except KeyboardInterrupt:
-        print("Interrupted; nothing was written.", file=sys.stderr)
-        code = INTERRUPTED
-    sys.exit(code if isinstance(code, int) else 0)
-
-
-def _say(error: BoresightError) -> None:
-    """Prints an error: one line, or a list of all that is wrong."""
-    problems = getattr(error, "problems", (str(error),))
-    if len(problems) == 1:
-        print(f"Error: {problems[0]}", file=sys.stderr)
-        return
-    print(f"Error: {len(problems)} problems", file=sys.stderr)
-    for problem in problems:
-        print(f"  - {problem}", file=sys.stderr)

@@ -56,9 +56,9 @@ def run_compensate(
     )
     write_atomically(target, commands_csv(found, units, wanted.others, controller_poses))
     if as_json:
-        print_plain(json.dumps(_summary(found, target), indent=2) + "\n")
+        print_plain(json.dumps(_summary(found, target) | {"notes": list(wanted.notes)}, indent=2) + "\n")
     else:
-        _show(PipedConsole(), found, target, controller_poses)
+        _show(PipedConsole(), found, target, controller_poses, wanted.notes)
     return 0 if found.count(Reached.YES) + found.count(Reached.NEAR_SINGULAR) == len(found) else NOT_REACHED
 
 
@@ -82,11 +82,11 @@ def _sizes(errors: np.ndarray) -> dict[str, dict[str, float]]:
     }
 
 
-def _show(console: Console, found: Compensation, target: Path, controller_poses: bool) -> None:
+def _show(console: Console, found: Compensation, target: Path, controller_poses: bool, notes: tuple[str, ...]) -> None:
     """Prints what became of the poses, the first of those that were not reached row by row."""
     what = "Poses for a controller with the nominal model" if controller_poses else "Joint commands"
     reached = found.count(Reached.YES) + found.count(Reached.NEAR_SINGULAR)
-    console.print(f"{what} for [bold]{len(found)}[/] poses: {reached} reached.")
+    console.print(f"{what} for [bold]{len(found)}[/] pose{'s' if len(found) != 1 else ''}: {reached} reached.")
     off = np.sqrt(np.mean(found.before**2, axis=0))
     console.print(f"  Uncompensated, the tool would be {in_millimetres(off[0])} and {1e3 * off[1]:.3g} mrad off (RMS).")
     revolute = [joint.type == "revolute" for joint in found.calibrated.driven]
@@ -104,6 +104,8 @@ def _show(console: Console, found: Compensation, target: Path, controller_poses:
         console.print(f"  Row {row + 1}: {_why(found, int(row))}")
     if len(failed) > _SHOWN:
         console.print(f"  and {len(failed) - _SHOWN} more rows, marked in the column `reached`.")
+    for note in notes:
+        console.print(f"Note: {escape(note)}", highlight=False)
     console.print(f"Files: {escape(str(target))}", soft_wrap=True, highlight=False)
 
 

@@ -3,24 +3,28 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from rich.console import Console
 from rich.markup import escape
 
+from boresight.arm import Joint
 from boresight.cli.consoles import PipedConsole, print_plain
 from boresight.errors import InputError, OutputError
 from boresight.files.bag_observations import remarks_of
 from boresight.files.bags import is_bag
+from boresight.files.chosen_robots import robot_of_campaign
 from boresight.files.dialects import described, in_house_words
 from boresight.files.joint_logs import paired
 from boresight.files.observations import LIMIT_MIB
 from boresight.files.recorded import Recorded, began, read_recorded, rows_csv
-from boresight.files.robots import load_robot
+from boresight.files.robots import is_urdf, load_robot
 from boresight.files.sheets import csv_text, sheet_of
 from boresight.files.sources import read_source
 from boresight.files.topics import Choice
+from boresight.files.urdf import moving_joints
 from boresight.files.writing import write_atomically
 from boresight.units import Units, in_millimetres
 
@@ -30,7 +34,7 @@ def run_import(
     output: Path | None,
     choice: Choice,
     *,
-    robot: Path | None,
+    arm: ArmOf,
     joint_file: Path | None,
     marker: int | None,
     overwrite: bool,
@@ -44,9 +48,9 @@ def run_import(
     if target.exists() and path.exists() and target.samefile(path):
         raise OutputError(f"{target}: is the file to import itself; name another file with -o")
     if is_bag(path) or path.name == "metadata.yaml":
-        summary, text = _bag(path, choice, robot)
+        summary, text = _bag(path, choice, arm)
     else:
-        summary, text = _table(path, robot, joint_file, marker)
+        summary, text = _table(path, arm, joint_file, marker)
     write_atomically(target, text)
     summary["output"] = str(target)
     if as_json:
@@ -72,9 +76,49 @@ def _check(choice: Choice) -> None:
         raise InputError(problems)
 
 
-def _bag(path: Path, choice: Choice, robot: Path | None) -> tuple[dict[str, object], str]:
-    names = load_robot(robot).joint_names if robot else None
-    recorded = read_recorded(path, str(path), choice, names)
+@dataclass(frozen=True, slots=True)
+class ArmOf:
+    """Where the names of the arm's joints are.
+
+    Attributes:
+        robot: a robot.yaml or URDF, or None.
+        base, tip: links of a URDF, or None.
+        campaign: a campaign whose robot it is, or None.
+    """
+
+    robot: Path | None = None
+    base: str | None = None
+    tip: str | None = None
+    campaign: Path | None = None
+
+    def joints(self) -> tuple[tuple[Joint, ...], bool]:
+        """Returns the arm's joints, none where nothing names them, and whether all of them must be in the source.
+
+        Of a URDF with several last links, which no option tells apart, any that moves will do.
+
+        Raises:
+            InputError: a file cannot be read, or options exclude each other.
+        """
+        if self.campaign is not None:
+            if self.robot is not None or self.base is not None or self.tip is not None:
+                raise InputError("--campaign names the robot; leave out --robot, --base and --tip")
+            return robot_of_campaign(self.campaign).driven, True
+        if self.robot is None:
+            if self.base is not None or self.tip is not None:
+                raise InputError("--base and --tip are links of a URDF; name it: --robot arm.urdf")
+            return (), True
+        if not is_urdf(str(self.robot)) or self.base is not None or self.tip is not None:
+            return load_robot(self.robot, self.base, self.tip).driven, True
+        try:
+            return load_robot(self.robot).driven, True
+        except InputError:
+            return moving_joints(self.robot), False  # which says it where the file cannot be read at all
+
+
+def _bag(path: Path, choice: Choice, arm: ArmOf) -> tuple[dict[str, object], str]:
+    joints, every = arm.joints()
+    names = [joint.name for joint in joints] or None
+    recorded = read_recorded(path, str(path), choice, names, all_joints=every)
     return _summary(recorded), rows_csv(recorded)
 
 
@@ -101,13 +145,12 @@ def _summary(recorded: Recorded) -> dict[str, object]:
     }
 
 
-def _table(
-    path: Path, robot: Path | None, joint_file: Path | None, marker: int | None
-) -> tuple[dict[str, object], str]:
+def _table(path: Path, arm: ArmOf, joint_file: Path | None, marker: int | None) -> tuple[dict[str, object], str]:
     name, mend = str(path), "thin it or split it"
-    arm = load_robot(robot) if robot else None
+    joints, every = arm.joints()
+    names = [joint.name for joint in joints]
     source = read_source(path, name, kind="a CSV file or a ROS bag", limit_mib=LIMIT_MIB, mend=mend)
-    ours, translation = in_house_words(sheet_of(source), arm.joints if arm else (), Units(), marker)
+    ours, translation = in_house_words(sheet_of(source), joints, Units(), marker)
     if translation is None:
         raise InputError(
             f"{name}: the columns are neither FIGAROH's (x1, y1, z1, joints) nor Leica's (X [mm], Y [mm], Z [mm]), and "
@@ -118,13 +161,13 @@ def _table(
         log = read_source(
             joint_file, str(joint_file), kind="a CSV file of joint readings", limit_mib=LIMIT_MIB, mend=mend
         )
-        pairs = paired(ours, sheet_of(log), arm.joint_names if arm else None)
+        pairs = paired(ours, sheet_of(log), names if every else None)
         ours = pairs.sheet
         notes.append(f"Joints and measurements were paired {'by time' if pairs.by_time else 'row by row'}.")
         lines = ", ".join(map(str, pairs.left_out[:6])) + (" and others" if len(pairs.left_out) > 6 else "")
         if pairs.left_out:
             warnings.append(f"{name}: {len(pairs.left_out)} rows are at times without joints (lines {lines})")
-    elif translation.dialect == "Leica" and not (arm and set(arm.joint_names) <= set(translation.header)):
+    elif translation.dialect == "Leica" and not (names and set(names) <= set(translation.header)):
         raise InputError(
             f"{name}: a tracker's export has no joints; name their file: --joint-file joints.csv, a column a joint, "
             "and a row for each of its rows or a column time"

@@ -165,7 +165,7 @@ def _checked(
         problems.append(f"--seeds: expected 1 to {MOST_SEEDS}, got {seeds}")
     if summary and (shard or workers or scheduler or merge):
         problems.append("--summary runs nothing; expected it without --workers, --scheduler, --shard and --merge")
-    match = re.fullmatch(r"(\d{1,6})/(\d{1,6})", shard or "1/1")
+    match = re.fullmatch(r"([0-9]{1,6})/([0-9]{1,6})", shard or "1/1")
     number, count = (int(match[1]), int(match[2])) if match else (0, 0)
     if not 1 <= number <= count:
         problems.append(f"--shard: expected i/n such as 2/4, the second of four parts, got {shard}")

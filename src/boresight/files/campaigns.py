@@ -11,6 +11,7 @@ from boresight.calibration.campaign import Campaign, Freedom
 from boresight.files.bag_observations import read_bag_observations
 from boresight.files.bags.storages import is_bag
 from boresight.files.chosen_robots import RobotOf
+from boresight.files.columns import clashes
 from boresight.files.documents import Document, read_document
 from boresight.files.equipment import frame_of, read_aims, read_targets, sensor_of
 from boresight.files.explaining import validated
@@ -114,6 +115,12 @@ def cell_of(document: Document, entry: CampaignEntry, robot: RobotOf, problems: 
         targets,
         aims if entry.sensors is not None or entry.markers is not None else (),
     )
+    if clashing := clashes(cell):
+        problems.add(
+            f"{document.at(('robot',))}joint {listed(clashing)} is called as a column of the readings is; call it "
+            "something else, as no file could tell them apart"
+        )
+    problems.raise_if_any()
     return _as_asked(cell, entry)
 
 

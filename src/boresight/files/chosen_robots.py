@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from pathlib import Path
 
 from boresight.arm import Arm
 from boresight.arm.conditioning import well_conditioned
@@ -10,6 +11,7 @@ from boresight.calibration.campaign import RobotFile
 from boresight.errors import InputError, did_you_mean
 from boresight.files.composing import KeyPath
 from boresight.files.documents import Document, read_document
+from boresight.files.explaining import validated
 from boresight.files.plausible_units import Robot
 from boresight.files.problems import listed, shown
 from boresight.files.robots import arm_of, is_urdf, units_of
@@ -63,6 +65,16 @@ class RobotOf:
                 f"with beta in place of d there, none of its lengths above {now:.2g} m. It moves the same.",
             )
         return found
+
+
+def robot_of_campaign(path: Path | str) -> Arm:
+    """Returns the arm of a campaign, whatever else the campaign names.
+
+    Raises:
+        InputError: the campaign or the arm cannot be read.
+    """
+    document = read_document(path)
+    return RobotOf(document, validated(document, CampaignEntry), {}).read()
 
 
 def _of_catalogue(wanted: str, place: str) -> Arm:

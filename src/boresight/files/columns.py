@@ -10,7 +10,7 @@ from boresight.errors import did_you_mean
 from boresight.files.problems import Problems, listed, shown
 from boresight.sensing import Cell, Pose, Sensor
 from boresight.sensing.aims import targets_of
-from boresight.units import Units
+from boresight.units import Quantity, Units
 
 OTHER_NAMES = {"range": "distance"}
 """A second name that a sensor's column may have."""
@@ -77,9 +77,6 @@ def read_columns(
         problems: where faults are added.
         need_values: whether columns of configurations alone, without any of the sensors', are a fault.
     """
-    if len(header) == 1 and (";" in header[0] or "\t" in header[0]):
-        problems.add(f"{place}the columns are not separated by commas; expected j1,j2,... with decimal points")
-        return Columns()
     at = {name: column for column, name in enumerate(header)}
     of = {name: _values(cell, sensor, at, place, problems) for name, sensor in cell.sensors.items()}
     known = tuple(dict.fromkeys(column for columns in of.values() for column in columns))
@@ -107,6 +104,32 @@ def read_columns(
         keys=_keys(cell, at, place, problems),
         planned=planned,
     )
+
+
+def clashes(cell: Cell) -> list[str]:
+    """Returns the joints that are called as a column of a sensor's, or of its certainty, is."""
+    values = [column for sensor in cell.sensors.values() for column in sensor.columns]
+    spread = [f"std_{column}" for column in values if column not in QUATERNION]
+    meant = {*values, *map(_other_name, values), *spread, "std", STD_ANGLE, "repeats", *KEYS, *IGNORED}
+    return [name for name in cell.arm.joint_names if name in meant]
+
+
+def known_columns(cell: Cell) -> dict[str, Quantity | None]:
+    """Returns the names that columns of a cell's observations may have, and what each measures."""
+    values = dict.fromkeys(column for sensor in cell.sensors.values() for column in sensor.columns)
+    lengths = [column for column in values if column not in QUATERNION]
+    names: dict[str, Quantity | None] = {
+        joint.name: "angle" if joint.type == "revolute" else "length" for joint in cell.arm.driven
+    }
+    names |= {name: None if name in QUATERNION else "length" for name in (*values, *map(_other_name, values))}
+    names |= dict.fromkeys(("std", *(f"std_{column}" for column in lengths)), "length")
+    if any(isinstance(sensor, Pose) for sensor in cell.sensors.values()):
+        names[STD_ANGLE] = "angle"
+    return {**names, **dict.fromkeys((*KEYS, "repeats", *IGNORED))}
+
+
+def _other_name(column: str) -> str:
+    return OTHER_NAMES.get(column, column)
 
 
 def _keys(cell: Cell, at: dict[str, int], place: str, problems: Problems) -> dict[str, int]:
@@ -169,26 +192,29 @@ def _check_names(
     optional = (*KEYS, *optional)
     other_names = (OTHER_NAMES.get(value, value) for value in known_values)
     known = dict.fromkeys((*joints, *known_values, *other_names, *optional))
-    for name in sorted(set(joints) & {*known_values, *optional}):
-        problems.add(f"{place}{name} is a joint and a column of its own meaning; call the joint something else")
     counts = Counter(header)
+    unknown = [name for name in dict.fromkeys(header) if name and name not in known]
     for column, name in enumerate(header, start=1):
         if not name:
             problems.add(f"{place}column {column} has no name; is there a comma too many?")
-        elif counts[name] > 1 and column == header.index(name) + 1:
+        elif counts[name] > 1 and name in known and column == header.index(name) + 1:
             problems.add(f"{place}there are several columns {shown(name)}; expected one")
-        elif name not in known:
-            near = "" if problems.full else did_you_mean(name[:60], known)
-            others = f"{listed((*joints, *known_values))} and, if wanted, {listed(dict.fromkeys(optional))}"
-            problems.add(f"{place}unknown column {shown(name)}{near}; expected columns {others}")
     columns = listed(map(shown, header))
-    if values and not set(values) & set(header) and set(joints) <= set(header):
+    if not unknown and values and not set(values) & set(header) and set(joints) <= set(header):
         problems.add(
             f"{place}there are configurations but no readings, no column for {listed(values)}; the columns are "
             f"{columns}; `boresight inspect` needs no readings, anything else does"
         )
         return
-    for name in (*joints, *values):
-        if name not in header:
-            kind = f"joint {name}" if name in joints else name
-            problems.add(f"{place}there is no column for {kind}; the columns are {columns}")
+    missing = [f"joint {name}" if name in joints else name for name in (*joints, *values) if name not in header]
+    none = f"no column for {listed(missing)}"
+    if unknown:
+        near = did_you_mean(unknown[0][:60], known)
+        plural = "s" if len(unknown) > 1 else ""
+        others = f"{listed((*joints, *known_values))} and, if wanted, {listed(dict.fromkeys(optional))}"
+        problems.add(
+            f"{place}unknown column{plural} {listed(map(shown, unknown))}{near}{f' and {none}' if missing else ''}; "
+            f"expected columns {others}"
+        )
+    elif missing:
+        problems.add(f"{place}there is {none}; the columns are {columns}")

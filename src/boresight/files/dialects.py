@@ -17,17 +17,21 @@ from itertools import chain
 
 from boresight.arm import Joint
 from boresight.errors import InputError
+from boresight.files.numbers import number_of
 from boresight.files.problems import Problems, listed, printable
 from boresight.files.sheets import Row, Sheet
 from boresight.units import Units
 
 POSITION, QUATERNION = ("x", "y", "z"), ("qw", "qx", "qy", "qz")
 _ANGLES = ("phix", "phiy", "phiz")
-_MARKER = re.compile(r"(x|y|z|phix|phiy|phiz)(\d+)")
+_MARKER = re.compile(r"(x|y|z|phix|phiy|phiz)(\d+)", re.ASCII)
 _LEICA = re.compile(r"([XYZ]) ?\[(mm|m)\]")
 _UNCERTAINTY = re.compile(r"U ?\(95 ?%?\) ?\[(mm|m|um|µm)\]")
 _TEMPERATURE = re.compile(r"Temperature ?\[°?C\]")
 _TIME = ("Time Stamp", "Timestamp", "TimeStamp")
+_PLAIN = ("t", "time", "session", "target", "repeats", "temperature")
+"""Columns beside FIGAROH's that are taken over as they stand."""
+
 _METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "µm": 1e-6}
 _TWO_SIGMA = 0.5
 """U(95) is an expanded uncertainty with k = 2."""
@@ -104,8 +108,8 @@ def in_house_words(
     except InputError as error:
         raise InputError(printable(f"{sheet.name}: {error}")) from None
     if translation is None:
-        return Sheet(sheet.name, chain([first], sheet.rows)), None
-    return Sheet(sheet.name, _translated(sheet, first, translation)), translation
+        return Sheet(sheet.name, chain([first], sheet.rows), sheet.notes), None
+    return Sheet(sheet.name, _translated(sheet, first, translation), sheet.notes), translation
 
 
 def _translated(sheet: Sheet, header: Row, translation: Translation) -> Iterator[Row]:
@@ -134,11 +138,16 @@ def _figaroh(
         raise InputError(f"there is no marker {chosen}; the file holds {known}")
     found, at = Translation("FIGAROH"), {name: place for place, name in enumerate(header)}
     turning = {joint.name: joint.type == "revolute" for joint in joints}
+    whole = bool(turning) and set(turning) <= set(header)
     angles = [at.get(f"{angle}{chosen}") for angle in _ANGLES]
     for name, place in at.items():
         match = _MARKER.fullmatch(name)
         if match is None and name == "session_id":
             found.add("session", str.strip, place)
+        elif match is None and name.casefold() in _PLAIN:
+            found.add("time" if name == "t" else name.casefold(), str.strip, place)
+        elif match is None and whole and name not in turning:
+            found.left_out.append(name)
         elif match is None:
             found.add(name, _scaled(1.0 / (units.radians if turning.get(name, True) else units.metres)), place)
         elif match[1] in POSITION and int(match[2]) == chosen:
@@ -170,7 +179,7 @@ def _leica(header: Sequence[str], joints: Sequence[Joint], units: Units) -> Tran
 def _scaled(factor: float) -> Callable[[str], str]:
     def scaled(cell: str) -> str:
         try:
-            return cell.strip() if factor == 1.0 or "_" in cell else repr(float(cell) * factor)
+            return cell.strip() if factor == 1.0 else repr(number_of(cell) * factor)
         except ValueError:
             return cell  # for the reader, who says what is wrong with it
 
@@ -182,7 +191,7 @@ def _quaternion(part: int) -> Callable[[str, str, str], str]:
 
     def number(*cells: str) -> str:
         try:
-            halves = [float(cell) / 2.0 for cell in cells]
+            halves = [number_of(cell) / 2.0 for cell in cells]
         except ValueError:
             return ""
         (cr, cp, cy), (sr, sp, sy) = ([f(half) for half in halves] for f in (math.cos, math.sin))

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from boresight.errors import InputError
+from boresight.files.numbers import number_of
 from boresight.files.problems import Problems, listed, printable, shown
 from boresight.files.sheets import Sheet
 from boresight.recordings import Signal, Trajectory
@@ -99,7 +100,7 @@ def _numbers(
     for k, (cells, line) in enumerate(zip(rows, lines, strict=True)):
         for column, place in enumerate(places):
             try:
-                numbers[k, column] = float(cells[place])
+                numbers[k, column] = number_of(cells[place])
             except ValueError:
                 problems.add(f"{name}, line {line}: got {shown(cells[place])}; expected a number")
     problems.raise_if_any()
@@ -123,7 +124,7 @@ def _times(rows: list[list[str]], lines: list[int], place: int, name: str) -> Fl
 
 def _time(cell: str) -> float | None:
     try:
-        return float(cell) if abs(float(cell)) < 1e12 else None
+        return number_of(cell) if abs(number_of(cell)) < 1e12 else None
     except ValueError:
         pass
     for read in (datetime.fromisoformat, *(lambda text, f=f: datetime.strptime(text, f) for f in _FORMATS)):

@@ -10,8 +10,9 @@ from jaxtyping import Bool, Float, Int
 
 from boresight.calibration.campaign import SetAside
 from boresight.errors import InputError
-from boresight.files.columns import QUATERNION, Columns
+from boresight.files.columns import QUATERNION, Columns, known_columns
 from boresight.files.dialects import described, in_house_words
+from boresight.files.headers import with_known_names
 from boresight.files.parquet import is_parquet, parquet_sheet
 from boresight.files.problems import Problems, printable
 from boresight.files.schemas import LARGEST, SMALLEST
@@ -84,9 +85,15 @@ def read_observations(
         else:
             raise source.complaint.not_text()
         ours, translation = in_house_words(sheet, cell.arm.joints, units)
-        found = observations_of(ours, cell, units, need_values=need_values)
-    notes = (printable(f"{name}: {described(translation)}"),) if translation else ()
-    return replace(found, sha256=source.sha256, notes=notes)
+        named = with_known_names(ours, known_columns(cell), cell.arm.joint_names, units)
+        found = observations_of(named, cell, units, need_values=need_values)
+    notes = (*([described(translation)] if translation else []), *_sentence(named.notes))
+    return replace(found, sha256=source.sha256, notes=tuple(printable(f"{name}: {note}") for note in notes))
+
+
+def _sentence(notes: list[str]) -> list[str]:
+    """Returns what was noted of a file's form as one sentence, or none."""
+    return [f"{'; '.join(dict.fromkeys(notes))}."] if notes else []
 
 
 def observations_of(sheet: Sheet, cell: Cell, units: Units, *, need_values: bool = True) -> Observations:

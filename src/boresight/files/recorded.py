@@ -58,7 +58,13 @@ class Recorded:
 
 
 def read_recorded(
-    path: Path, name: str, choice: Choice, joint_names: Sequence[str] | None = None, kind: str | None = None
+    path: Path,
+    name: str,
+    choice: Choice,
+    joint_names: Sequence[str] | None = None,
+    kind: str | None = None,
+    *,
+    all_joints: bool = True,
 ) -> Recorded:
     """Returns the rows of a bag, in metres and radians.
 
@@ -68,6 +74,7 @@ def read_recorded(
         choice: which topics, and what counts as still.
         joint_names: the arm's joints; those of the bag, in its order, by default.
         kind: `range` or `position`; whichever the bag holds by default.
+        all_joints: whether every one of `joint_names` must be there, or those that are there are used.
 
     Raises:
         InputError: it cannot be read, a topic is missing or not to be told from others, or no row can be made.
@@ -76,7 +83,8 @@ def read_recorded(
     topics = topics_of(bag, choice, kind)
     clock = clock_of([bag.messages[topic] for topic in topics.joints], bag.messages[topics.readings], topics.readings)
     joints = _joint_signals(bag, topics.joints, clock)
-    names = _arm(bag, joints, joint_names)
+    named = joint_names if joint_names is None or all_joints else [n for n in joint_names if n in joints] or joint_names
+    names = _arm(bag, joints, named)
     readings, reasons = _readings(bag, topics, clock, choice.time_offset)
     start = min(min(joints[n].time[0] for n in names), readings.time[0])
     trajectory = Trajectory.of(names, {n: _from(joints[n], start) for n in names}, choice.rules.longest_gap)

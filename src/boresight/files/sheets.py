@@ -5,11 +5,13 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from itertools import chain
 from typing import BinaryIO
 
 from boresight.errors import InputError
 from boresight.files.problems import printable
+from boresight.files.separators import SEPARATORS, separator_of, with_decimal_points, without_empty_ends
 from boresight.files.sources import Source
 
 Row = tuple[int, list[str]]
@@ -24,20 +26,26 @@ class Sheet:
         name: what the user calls its file, for messages.
         rows: those that are not blank, the header first. Going through them raises an `InputError` where the file
             turns out not to be what it should.
+        notes: how it is read, where that is not as it should be written; complete once the rows have been gone through.
     """
 
     name: str
     rows: Iterator[Row]
+    notes: list[str] = field(default_factory=list)
 
 
 def csv_sheet(file: BinaryIO, name: str) -> Sheet:
     """Returns the rows of a CSV file in UTF-8; `#` begins a comment.
 
+    Where its header has no commas, semicolons or tabs may separate the columns, and numbers have decimal commas; empty
+    columns at the end are left out.
+
     Args:
         file: at its beginning.
         name: what the user calls it.
     """
-    return Sheet(name, _csv_rows(file, name))
+    notes: list[str] = []
+    return Sheet(name, _csv_rows(file, name, notes), notes)
 
 
 def sheet_of(source: Source) -> Sheet:
@@ -52,18 +60,33 @@ def csv_text(rows: Iterable[Row]) -> str:
     return text.getvalue()
 
 
-def _csv_rows(file: BinaryIO, name: str) -> Iterator[Row]:
+def _csv_rows(file: BinaryIO, name: str, notes: list[str]) -> Iterator[Row]:
     text = io.TextIOWrapper(file, encoding="utf-8-sig", newline=None)
-    reader = csv.reader((line.partition("#")[0] for line in text), strict=True)
+    lines = (line.partition("#")[0] for line in text)
+    reader = None
     try:
-        for cells in reader:
-            if len(cells) > 1 or (cells and cells[0].strip()):
-                yield reader.line_num, cells
+        head = [*_to_the_first(lines)]
+        separator = separator_of(head[-1] if head else "")
+        if separator != ",":
+            notes.append(f"columns are separated by {SEPARATORS[separator]}")
+        reader = csv.reader(chain(head, lines), delimiter=separator, strict=True)
+        rows = ((reader.line_num, cells) for cells in reader)
+        filled = ((line, cells) for line, cells in rows if len(cells) > 1 or (cells and cells[0].strip()))
+        pointed = filled if separator == "," else with_decimal_points(filled, name, notes)
+        yield from without_empty_ends(pointed, notes)
     except UnicodeDecodeError:
         raise InputError(f"{name}: the file is not UTF-8 text; save it as CSV in UTF-8") from None
     except OSError as error:
         raise InputError(printable(f"{name}: it cannot be read on: {error.strerror or error}")) from None
     except csv.Error as error:
-        where = f"{name}, line {reader.line_num}: "
+        where = f"{name}, line {reader.line_num if reader else 1}: "
         raise InputError(printable(f"{where}not valid CSV: {error}; is a quotation mark left open?")) from None
     text.detach()  # or the file, which its owner looks at once more, would be closed with it
+
+
+def _to_the_first(lines: Iterator[str]) -> Iterator[str]:
+    """Yields lines up to the first that is not blank."""
+    for line in lines:
+        yield line
+        if line.strip():
+            return

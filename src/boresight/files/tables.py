@@ -14,6 +14,7 @@ from jaxtyping import Float, Int
 from boresight.errors import InputError
 from boresight.files.aiming import AimsByName
 from boresight.files.columns import KEYS, Columns, read_columns
+from boresight.files.numbers import number_of
 from boresight.files.problems import Problems, shown
 from boresight.files.schemas import LARGEST
 from boresight.files.sheets import Sheet
@@ -96,7 +97,8 @@ def read_table(sheet: Sheet, cell: Cell, units: Units, problems: Problems, *, ne
             sessions.append(sys.intern(cells[session_at].strip()))
         given_numbers = numeric(cells)
         try:
-            if "_" in "".join(given_numbers):  # float() takes 1_000 for a thousand
+            together = "".join(given_numbers)
+            if "_" in together or not together.isascii():  # float() takes 1_000, and digits of any script
                 raise ValueError
             numbers.extend(list(map(float, given_numbers)))
         except ValueError:
@@ -125,7 +127,7 @@ def _cell_by_cell(
             empty.append(name)
         else:
             try:
-                number = float(text if "_" not in text else "")
+                number = number_of(text)
             except ValueError:
                 problems.add(
                     f"{where}{name}: got {shown(text)}; expected a number, or an empty cell where there is none"

@@ -6,6 +6,7 @@ import math
 import re
 from pathlib import Path
 
+from boresight.arm import Joint
 from boresight.arm.serial import UNLIMITED, SerialChain, SerialJoint
 from boresight.calibration.campaign import RobotFile
 from boresight.errors import InputError, did_you_mean
@@ -23,7 +24,7 @@ MOST_MOVING = 100
 SUFFIXES = (".urdf", ".xacro", ".xml")
 """How the names of descriptions end; anything else is read as a robot.yaml."""
 
-_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
+_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 _MOVING = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic"}
 _Triple = tuple[float, float, float]
 
@@ -73,6 +74,23 @@ def robot_file_of(source: Source, base: str | None = None, tip: str | None = Non
     title = root.attributes.get("name", "").strip()
     chain = SerialChain(title if title.isprintable() and title else Path(source.name).stem, base, tip, joints_read)
     return RobotFile(source.name, source.content, _following(chain, tree, source.name))
+
+
+def moving_joints(path: Path | str) -> tuple[Joint, ...]:
+    """Returns every joint of a URDF that moves by a reading of its own, whatever chain it is on: names and types alone.
+
+    Raises:
+        InputError: it cannot be read.
+    """
+    source = read_source(
+        Path(path), str(path), kind="a URDF file", limit_mib=LIMIT_MIB, mend="meshes belong in their own files"
+    )
+    tree = tree_of(read_elements(source), source.name)
+    return tuple(
+        Joint(name, "prismatic" if element.attributes["type"] == "prismatic" else "revolute")
+        for name, element in tree.joints.items()
+        if element.attributes.get("type") in _MOVING and not element.all("mimic") and name_fault(name) is None
+    )
 
 
 def _joint(element: Element, tree: Tree, file: str, problems: Problems) -> SerialJoint | None:
