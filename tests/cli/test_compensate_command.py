@@ -125,7 +125,7 @@ def test_rotation_vectors_are_the_same_orientations_as_quaternions(boresight, ca
     [
         (
             "j1,j2,j3,j4,j5,j6\n0,-90,90,-90,-90,0\n",
-            "reads -90, too much for radians; if the file is in degrees, say --angle",
+            "too much for radians; if the file is in degrees, say --angle",
         ),
         ("x,y,z\n400,200,300\n", "if they are in mm, say --length mm"),
         ("x,y,z,rx,ry,rz\n0.4,0.2,0.3,0,180,0\n", "up to 180 rad long, more than a turn; if it is in degrees"),
@@ -146,7 +146,9 @@ def test_what_cannot_be_meant_so_is_refused(boresight, calibrated, text, told):
 def test_columns_that_are_handed_on_and_orientations_left_free_are_told(boresight, calibrated):
     (calibrated / "poses.csv").write_text("X;Y;Z;note\n0,4;0,1;0,5;here\n")
     said = " ".join(boresight("compensate", "result", "poses.csv", "-o", "out.csv").out.split())
-    assert "separated by semicolons; numbers have decimal commas; columns are read as the names that are known" in said
+    assert (
+        "separated by semicolons; columns are read as the names that are known: X as x, Y as y, Z as z; numbers" in said
+    )
     assert "there are positions and no orientations, which are left free" in said
     assert "columns that mean nothing here are handed on as they are: note" in said
     assert read(calibrated / "out.csv")[0]["note"] == "here"

@@ -153,13 +153,13 @@ def test_the_robot_of_the_shipped_bag_loads():
 
 
 TWO_TIPS = (
-    '<link name="camera"/><joint name="of_camera" type="fixed"><parent link="{0}"/><child link="camera"/></joint>'
+    '<link name="camera"/><joint name="of_camera" type="fixed"><parent link="base_link"/><child link="camera"/></joint>'
 )
 
 
 def test_a_urdf_with_several_tips_gives_the_joints_that_the_log_has(boresight, tmp_path):
     text = (EXAMPLES / "ros-bag" / "arm.urdf").read_text()
-    (tmp_path / "tips.urdf").write_text(text.replace("</robot>", TWO_TIPS.format("base_link") + "</robot>"))
+    (tmp_path / "tips.urdf").write_text(text.replace("</robot>", TWO_TIPS + "</robot>"))
     source = EXAMPLES / "ros-bag" / "run"
     headers = []
     for options in (["--robot", "tips.urdf"], ["--robot", "tips.urdf", "--tip", "ranger"]):
