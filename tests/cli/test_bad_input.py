@@ -87,10 +87,17 @@ def test_rows_that_cannot_be_used_at_all_are_an_error(refused, one_plane):
     assert "none of its 100 rows can be used; the first, on line 2: range is empty" in refused()
 
 
-@pytest.mark.parametrize("content", [b"\x00\x01\x02", b"\x89PNG\r\n\x1a\n\x00", "j1,j2\n".encode("utf-16")])
-def test_binary_readings_are_refused(refused, one_plane, content):
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (b"\x00\x01\x02", "the file is binary or UTF-16"),
+        (b"\x89PNG\r\n\x1a\n\x00", "this is a PNG picture"),
+        ("j1,j2\n".encode("utf-16"), "this is text in UTF-16"),
+    ],
+)
+def test_binary_readings_are_refused(refused, one_plane, content, told):
     (one_plane.folder / "observations.csv").write_bytes(content)
-    assert "the file is binary or UTF-16" in refused()
+    assert told in refused()
 
 
 def test_readings_of_two_gigabytes_are_refused_unread(refused, one_plane):

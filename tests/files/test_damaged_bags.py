@@ -165,7 +165,7 @@ def test_a_bomb_is_not_inflated_beyond_what_it_says(tmp_path, read, monkeypatch)
     monkeypatch.setattr(mcap, "LARGEST_CHUNK", 2**20)
     bomb = zstd.compress(b"\0" * 2**27)
     record = struct.pack("<QQQI", 0, 0, 2**19, 0) + struct.pack("<I", 4) + b"zstd" + struct.pack("<Q", len(bomb)) + bomb
-    content = mcap.MAGIC + b"\x06" + struct.pack("<Q", len(record)) + record
+    content = mcap.MCAP + b"\x06" + struct.pack("<Q", len(record)) + record
     assert total(read(content)) == 0
 
 

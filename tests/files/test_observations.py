@@ -179,9 +179,16 @@ def test_a_header_alone_is_told_so(problem):
     assert problem(HEADER) == "observations.csv: there is a header but no row of readings under it"
 
 
-@pytest.mark.parametrize("text", [b"PK\x03\x04\x00\x00", "j1,j2,range\n1,2,3\n".encode("utf-16")])
-def test_binary_files_are_refused(problem, text):
-    assert "binary or UTF-16" in problem(text)
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (b"j1\x00,j2", "binary or UTF-16"),
+        (b"PK\x03\x04\x00\x00", "a ZIP archive"),
+        ("j1,j2,range\n1,2,3\n".encode("utf-16"), "text in UTF-16"),
+    ],
+)
+def test_binary_files_are_refused(problem, text, told):
+    assert told in problem(text)
 
 
 def test_text_that_is_not_utf_8_is_refused(problem):

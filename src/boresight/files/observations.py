@@ -77,7 +77,9 @@ def read_observations(
     """
     name = str(path) if name is None else name
     kind, mend = "a CSV or Parquet file", "thin it or split it"
-    with open_source(Path(path), name, kind=kind, limit_mib=LIMIT_MIB, mend=mend, named_by=named_by) as source:
+    with open_source(
+        Path(path), name, kind=kind, limit_mib=LIMIT_MIB, mend=mend, named_by=named_by, read=("a Parquet file",)
+    ) as source:
         if is_parquet(source.complaint.path, source.file):
             sheet = parquet_sheet(source, limit_mib=LIMIT_MIB)
         elif source.is_text:

@@ -10,11 +10,12 @@ from pathlib import Path
 from typing import BinaryIO
 
 from boresight.files.sheets import Row, Sheet
+from boresight.files.signatures import LENGTH
+from boresight.files.signatures import is_parquet as begins_as_parquet
 from boresight.files.sources import OpenSource
 
 SUFFIXES = (".parquet", ".pq")
 
-_MAGIC = b"PAR1"
 _BATCH_ROWS = 16_384
 _LEAST_BYTES = 2
 """What a number and the comma behind it take in CSV."""
@@ -24,9 +25,9 @@ _INSTALL = "pip install 'boresight[parquet]', or export it as CSV"
 
 def is_parquet(path: Path, file: BinaryIO) -> bool:
     """Returns whether a file is Parquet, or says so by its name; it stays at its beginning."""
-    beginning = file.read(len(_MAGIC))
+    beginning = file.read(LENGTH)
     file.seek(0)
-    return beginning == _MAGIC or path.suffix.lower() in SUFFIXES
+    return begins_as_parquet(beginning) or path.suffix.lower() in SUFFIXES
 
 
 def parquet_sheet(source: OpenSource, *, limit_mib: int) -> Sheet:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 import stat
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,6 +14,7 @@ from typing import BinaryIO
 
 from boresight.errors import InputError, did_you_mean
 from boresight.files.problems import printable
+from boresight.files.signatures import LENGTH, signature_of
 
 _MIB = 2**20
 
@@ -59,6 +60,20 @@ class Complaint:
     def not_text(self) -> InputError:
         """Returns the error for a file with NUL bytes."""
         return self.refused(f"the file is binary or UTF-16, it holds NUL bytes; expected {self.kind} in UTF-8 text")
+
+    def check_signature(self, beginning: bytes, read: Collection[str] = ()) -> None:
+        """Checks that a file is not of a kind that its first bytes tell, such as a ZIP archive or a Git LFS pointer.
+
+        Args:
+            beginning: its first bytes.
+            read: kinds that are read nevertheless, as `signature_of` calls them.
+
+        Raises:
+            InputError: it is of another kind.
+        """
+        found = signature_of(beginning[:LENGTH], self.path.name)
+        if found is not None and found.kind not in read:
+            raise self.refused(f"this is {found.kind}; expected {self.kind}: {found.mend}")
 
     @contextmanager
     def of_reading(self) -> Iterator[None]:
@@ -143,6 +158,7 @@ def read_source(
     complaint = Complaint(path, f"{named_by}{name}", kind)
     with complaint.opened(limit_mib, mend) as file, complaint.of_reading():
         content = file.read(limit_mib * _MIB)
+    complaint.check_signature(content)
     if not binary and b"\0" in content:
         raise complaint.not_text()
     return Source(path, name, content)
@@ -150,7 +166,14 @@ def read_source(
 
 @contextmanager
 def open_source(
-    path: Path, name: str, *, kind: str, limit_mib: int, mend: str, named_by: str = ""
+    path: Path,
+    name: str,
+    *,
+    kind: str,
+    limit_mib: int,
+    mend: str,
+    named_by: str = "",
+    read: Collection[str] = (),
 ) -> Iterator[OpenSource]:
     """Returns a context with a file whose digest is known, and which is the same file when the context ends.
 
@@ -161,14 +184,18 @@ def open_source(
         limit_mib: larger files are refused before a byte is read.
         mend: what to do about a file that is too large.
         named_by: the place that names the file, as the beginning of a sentence.
+        read: kinds of file that are read beside text, as `signature_of` calls them.
 
     Raises:
-        InputError: it is missing, not a regular file, not readable, too large, or was written to meanwhile.
+        InputError: it is missing, not a regular file, not readable, too large, of another kind, or was written to
+            meanwhile.
     """
     complaint = Complaint(path, f"{named_by}{name}", kind)
     with complaint.opened(limit_mib, mend) as file:
         before, digest, is_text = os.fstat(file.fileno()), hashlib.sha256(), True
         with complaint.of_reading():
+            complaint.check_signature(file.read(LENGTH), read)
+            file.seek(0)
             while block := file.read(_MIB):
                 digest.update(block)
                 is_text = is_text and b"\0" not in block

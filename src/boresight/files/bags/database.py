@@ -12,8 +12,6 @@ from tempfile import TemporaryDirectory
 from boresight.errors import InputError
 from boresight.files.bags.tape import LARGEST_MESSAGE, Tape
 
-MAGIC = b"SQLite format 3\0"
-
 _BESIDE = ("-wal", "-journal")
 """What a recorder that died leaves beside its database: without it the last messages are missing."""
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, BinaryIO
 
-ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 _PIECE = 2**20
 
 

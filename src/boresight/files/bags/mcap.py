@@ -17,8 +17,8 @@ from typing import BinaryIO
 from boresight.errors import InputError
 from boresight.files.bags.inflating import inflate
 from boresight.files.bags.tape import LARGEST_MESSAGE, Tape
+from boresight.files.signatures import MCAP
 
-MAGIC = b"\x89MCAP0\r\n"
 LARGEST_CHUNK = 256 * 2**20
 """Chunks are about 1 MiB; one beyond this [bytes] is damaged, or a bomb."""
 
@@ -45,9 +45,9 @@ def read_mcap(file: BinaryIO, name: str, tape: Tape) -> None:
         InputError: this is not an MCAP file.
     """
     size = os.fstat(file.fileno()).st_size
-    if file.read(len(MAGIC)) != MAGIC:
+    if file.read(len(MCAP)) != MCAP:
         raise InputError(f"{name}: the file does not begin as an MCAP file does")
-    scan, place = _Scan(tape, name), len(MAGIC)
+    scan, place = _Scan(tape, name), len(MCAP)
     chunks = _summary(file, size, scan)
     while place < size and not scan.done:
         try:
@@ -173,10 +173,10 @@ def _summary(file: BinaryIO, size: int, scan: _Scan) -> list[int]:
 
     Channels are repeated there, which helps where the chunk that named them first is damaged.
     """
-    footer = size - len(MAGIC) - _FOOTER_LENGTH
+    footer = size - len(MCAP) - _FOOTER_LENGTH
     file.seek(max(0, footer))
     end = file.read()
-    if footer <= 0 or end[-len(MAGIC) :] != MAGIC:
+    if footer <= 0 or end[-len(MCAP) :] != MCAP:
         return []
     (at,) = struct.unpack_from("<Q", end)
     places: set[int] = set()

@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from boresight.files.bags.inflating import ZSTD_MAGIC, inflate
+from boresight.files.bags.inflating import inflate
 from boresight.files.bags.joint_states import JointStateReader
 from boresight.files.bags.tape import LARGEST_MESSAGE
+from boresight.files.signatures import ZSTD
 
 JOINTS = ("sensor_msgs/msg/JointState",)
 RANGES = ("sensor_msgs/msg/Range", "std_msgs/msg/Float64", "std_msgs/msg/Float32")
@@ -77,7 +78,7 @@ def _seconds(nanoseconds: list[int]) -> Float[np.ndarray, " messages"]:
 
 
 def _bare(data: bytes) -> bytes:
-    return inflate(data, "zstd", LARGEST_MESSAGE)[0] if data.startswith(ZSTD_MAGIC) else data
+    return inflate(data, "zstd", LARGEST_MESSAGE)[0] if data.startswith(ZSTD) else data
 
 
 def _reader(kind: str) -> Callable[[bytes], tuple[int, Any]]:

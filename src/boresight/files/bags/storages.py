@@ -9,13 +9,13 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from boresight.errors import InputError
-from boresight.files.bags.database import MAGIC as SQLITE_MAGIC
 from boresight.files.bags.database import read_database
-from boresight.files.bags.inflating import ZSTD_MAGIC, inflate_file
-from boresight.files.bags.mcap import MAGIC as MCAP_MAGIC
+from boresight.files.bags.inflating import inflate_file
 from boresight.files.bags.mcap import read_mcap
 from boresight.files.bags.tape import Tape
 from boresight.files.documents import read_document
+from boresight.files.problems import printable
+from boresight.files.signatures import LENGTH, MCAP, ROS1, SQLITE, ZSTD, signature_of
 
 SUFFIXES = (".mcap", ".db3", ".mcap.zstd", ".db3.zstd")
 LARGEST_INFLATED = 64 * 2**30
@@ -23,8 +23,17 @@ _METADATA = "metadata.yaml"
 
 
 def is_bag(path: Path) -> bool:
-    """Whether a path looks like a bag rather than a CSV file: a folder, or a file with a bag's ending."""
-    return path.is_dir() or path.name.lower().endswith(SUFFIXES)
+    """Whether a path is a bag rather than a CSV file: a folder, or a file with a bag's ending or first bytes."""
+    if path.is_dir() or path.name.lower().endswith(SUFFIXES):
+        return True
+    try:
+        # A pipe or a device is never opened: reading one could wait for ever.
+        if not path.is_file():
+            return False
+        with open(path, "rb") as file:
+            return file.read(len(SQLITE)).startswith((MCAP, SQLITE, ROS1))
+    except (OSError, ValueError):  # whoever reads it says why it cannot be read
+        return False
 
 
 def files_of(path: Path, name: str, tape: Tape) -> list[Path]:
@@ -40,6 +49,8 @@ def files_of(path: Path, name: str, tape: Tape) -> list[Path]:
     if not path.is_dir():
         raise InputError(f"{name}: there is no such file or folder; expected a rosbag2 folder or an .mcap file")
     found = sorted((p for p in path.iterdir() if p.name.lower().endswith(SUFFIXES) and p.is_file()), key=_by_number)
+    if not found and (old := sorted(p for p in path.iterdir() if p.suffix.lower() == ".bag" and p.is_file())):
+        return old  # of ROS 1, which reading them tells
     if not found:
         raise InputError(
             f"{name}: there is no {' or '.join(SUFFIXES[:2])} file in this folder; expected a rosbag2 folder"
@@ -53,24 +64,28 @@ def files_of(path: Path, name: str, tape: Tape) -> list[Path]:
 def read_storage(path: Path, name: str, tape: Tape) -> None:
     """Returns nothing; the tape gets what one file of a bag holds. Its first bytes tell its kind."""
     with open(path, "rb") as file:
-        beginning = file.read(16)
+        beginning = file.read(LENGTH)
         file.seek(0)
-        if beginning.startswith(MCAP_MAGIC):
+        if beginning.startswith(MCAP):
             return read_mcap(file, name, tape)
-        if beginning.startswith(SQLITE_MAGIC):
+        if beginning.startswith(SQLITE):
             return read_database(path, name, tape)
-        if beginning.startswith(ZSTD_MAGIC):
+        if beginning.startswith(ZSTD):
             with TemporaryDirectory() as folder:
                 inflated = Path(folder) / path.stem
                 with open(inflated, "wb") as target:
                     if not inflate_file(file, target, LARGEST_INFLATED):
                         tape.lose(f"{name}: the compressed file breaks off or is damaged; what came before was read")
                 with open(inflated, "rb") as again:
-                    if again.read(4) == ZSTD_MAGIC:
+                    if again.read(4) == ZSTD:
                         raise InputError(f"{name}: the file is compressed twice")
                 return read_storage(inflated, name, tape)
+    wanted = f"expected a ROS 2 bag, whose files end in {' or '.join(SUFFIXES[:2])}"
+    found = signature_of(beginning, name)
+    if found is not None:
+        raise InputError(printable(f"{name}: this is {found.kind}; {wanted}: {found.mend}"))
     kind = "is empty" if not beginning else "is neither MCAP nor SQLite"
-    raise InputError(f"{name}: the file {kind}; expected a ROS 2 bag, whose files end in {' or '.join(SUFFIXES[:2])}")
+    raise InputError(f"{name}: the file {kind}; {wanted}")
 
 
 def digest(files: list[Path]) -> str:
