@@ -8,6 +8,7 @@ from pathlib import Path
 
 from boresight.arm import HARMONICS, SAG, Arm
 from boresight.calibration.campaign import Campaign, Freedom
+from boresight.errors import InputError
 from boresight.files.bag_observations import read_bag_observations
 from boresight.files.bags.storages import is_bag
 from boresight.files.chosen_robots import RobotOf
@@ -18,7 +19,7 @@ from boresight.files.observations import Observations, read_observations
 from boresight.files.patterns import Matcher
 from boresight.files.plausible_readings import readings_fault
 from boresight.files.plausible_units import check_arm
-from boresight.files.problems import Problems, listed
+from boresight.files.problems import Problems, listed, shown
 from boresight.files.schemas import DEFAULT, CampaignEntry, DataEntry, PointEntry
 from boresight.files.sessions import ONLY, in_sessions, sessions_of, with_sessions
 from boresight.files.stated_priors import read_joint_noise, read_priors, with_flatness
@@ -159,6 +160,11 @@ def _observations(
     path, place = document.path.parent / named.name, document.at((key,))
     if named.bag is not None or is_bag(path):
         return read_bag_observations(path, cell=cell, entry=named, named_by=place)
+    if named.of_bags:
+        raise InputError(
+            f"{place}{listed(named.of_bags)} beside {shown(named.name)}, which is no ROS bag; these keys choose and "
+            "cut what a bag holds: leave them out, or name a bag"
+        )
     return read_observations(path, cell=cell, units=units, name=named.name, named_by=place, need_values=need_values)
 
 
