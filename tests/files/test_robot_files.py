@@ -151,3 +151,15 @@ def test_a_campaigns_table_of_nearly_parallel_axes_gets_lengths_of_its_own_size(
         "place of d there, none of its lengths above 0.61 m. It moves the same."
     )
     assert dump_robot(load_robot("robot.yaml")) == robot  # read alone, a table stays as it is to the bit
+
+
+@pytest.mark.parametrize("ratio", ["-1", "0.5", "100", "0"])
+def test_a_ratio_without_a_joint_to_follow_is_refused(problems, robot_with, ratio):
+    assert problems(robot_with(("a: 400", f"a: 400, ratio: {ratio}"))) == (
+        "robot.yaml, line 5: joints[1]: expected follows: JOINT beside ratio, which multiplies that joint's reading; a "
+        f"joint's own is not multiplied: write column j2 of the observations times {ratio} instead",
+    )
+
+
+def test_a_ratio_of_one_changes_nothing(robot, robot_with):
+    assert robot(robot_with(("a: 400", "a: 400, ratio: 1"))).joints[1] == Joint("j2", a=0.4)

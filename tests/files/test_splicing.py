@@ -114,3 +114,18 @@ def test_any_origin_in_any_dress_is_corrected(xyz, rpy, quote, gap, around, corr
     content = swapped(('<origin xyz="0.1 0 0"/>', dressed)).encode()
     text = calibrated(content, dict(zip(CORRECTIONS, corrections, strict=True)))
     assert len(re.findall(rb"<!--.*?-->", text)) == 2
+
+
+@pytest.mark.parametrize("before", ["\n", "\r\n", " \n\t\n", "\ufeff\n", "\ufeff", "   "])
+def test_what_stands_before_the_declaration_keeps_its_bytes(before):
+    text = calibrated(before + URDF, {"j1.d": 0.002}).decode()
+    assert text == before + URDF.replace("0  0\t0.3", "0  0\t0.302")
+
+
+@pytest.mark.parametrize("comment", [b"-- arm --", b"M\xfcller", b"--\r\n<origin xyz='1 2 3'/>--", b"-"])
+def test_comments_as_other_readers_take_them_keep_their_bytes(comment):
+    content = URDF.encode().replace(b'  <joint name="j2"', b"<!--%s-->\n" % comment + b'  <joint name="j2"')
+    assert b"<!--" + comment in content
+    text = calibrated(content, {"j2.theta": 0.01, "j1.d": 0.002})
+    expected = content.replace(b"0  0\t0.3", b"0  0\t0.302")
+    assert text == expected.replace(b'<origin xyz="0.1 0 0"/>', b'<origin xyz="0.1 0 0" rpy="0.0 0.01 0.0"/>')

@@ -268,3 +268,28 @@ def test_a_spoiled_file_is_read_or_refused_in_words(at, put, cut):
     except InputError as error:
         said.extend(error.problems)
     assert all(problem.isprintable() and problem.startswith("arm.urdf") for problem in said)
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("\n<robot>\n<link></robot>", "arm.urdf, line 3: not valid XML: mismatched tag"),
+        ("\r\n\n<robot>\n<link></robot>", "arm.urdf, line 4: not valid XML: mismatched tag"),
+        ("<!-- -- --><robot>\n<link></robot>", "arm.urdf, line 1: not valid XML: not well-formed (invalid token)"),
+        (
+            '<!-- mine -->\n<?xml version="1.0"?>\n<robot/>',
+            "arm.urdf, line 2: <?xml begins here and not at the file's beginning; remove what stands before it",
+        ),
+        ("\n  ", "arm.urdf, line 2: not valid XML: no element found"),
+    ],
+)
+def test_lines_are_the_files_own(content, said):
+    with pytest.raises(InputError) as caught:
+        robot_file_of(Source(Path("arm.urdf"), "arm.urdf", content.encode()))
+    assert caught.value.problems[0].startswith(said)
+
+
+def test_a_comment_that_never_ends_is_told_at_once():
+    content = b"<robot>" + b"<!--" * 2_000_000
+    with pytest.raises(InputError, match="not valid XML"):
+        robot_file_of(Source(Path("arm.urdf"), "arm.urdf", content))

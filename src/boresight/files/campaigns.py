@@ -8,6 +8,7 @@ from pathlib import Path
 
 from boresight.arm import HARMONICS, SAG, Arm
 from boresight.calibration.campaign import Campaign, Freedom
+from boresight.errors import InputError
 from boresight.files.bag_observations import read_bag_observations
 from boresight.files.bags.storages import is_bag
 from boresight.files.chosen_robots import RobotOf
@@ -19,9 +20,10 @@ from boresight.files.observations import Observations, read_observations
 from boresight.files.patterns import Matcher
 from boresight.files.plausible_readings import readings_fault
 from boresight.files.plausible_units import check_arm
-from boresight.files.problems import Problems, listed
+from boresight.files.problems import Problems, listed, shown
 from boresight.files.schemas import DEFAULT, CampaignEntry, DataEntry, PointEntry
 from boresight.files.sessions import ONLY, in_sessions, sessions_of, with_sessions
+from boresight.files.short_lengths import without_short_lengths
 from boresight.files.stated_priors import read_joint_noise, read_priors, with_flatness
 from boresight.sensing import Cell, Readings
 from boresight.units import Units
@@ -63,6 +65,12 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
         fault = readings_fault(cell, part.readings, _unknown(entry), entry.units.value, robot.called.name)
         if fault is not None and not problems:
             problems.add(f"{getattr(entry, key).name}: {fault}")
+    problems.raise_if_any()
+    of_unknown_zero = _of_unknown_zero(entry, choice)
+    for key in data:
+        with problems.gathered():
+            name = getattr(entry, key).name
+            data[key] = without_short_lengths(data[key], cell, name, entry.units.value, of_unknown_zero)
     problems.raise_if_any()
     plain, readings = cell, {key: with_flatness(entry, cell, part.readings) for key, part in data.items()}
     sensors = [name for name, sensor in entry.named_sensors.items() if sensor.offset_per is not None]
@@ -166,7 +174,18 @@ def _observations(
     path, place = document.path.parent / named.name, document.at((key,))
     if named.bag is not None or is_bag(path):
         return read_bag_observations(path, cell=cell, entry=named, named_by=place)
+    if named.of_bags:
+        raise InputError(
+            f"{place}{listed(named.of_bags)} beside {shown(named.name)}, which is no ROS bag; these keys choose and "
+            "cut what a bag holds: leave them out, or name a bag"
+        )
     return read_observations(path, cell=cell, units=units, name=named.name, named_by=place, need_values=need_values)
+
+
+def _of_unknown_zero(entry: CampaignEntry, choice: Choice) -> frozenset[str]:
+    """Returns the sensors whose zero is estimated."""
+    estimated = {f.parameter.removesuffix(".bias") for f in choice.freedoms or () if f.parameter.endswith(".bias")}
+    return frozenset(estimated | {name for name, each in entry.named_sensors.items() if each.offset_per is not None})
 
 
 def _unknown(entry: CampaignEntry) -> frozenset[str]:

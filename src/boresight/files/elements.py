@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import codecs
 import re
+from contextlib import suppress
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
@@ -23,6 +24,13 @@ MOST_ELEMENTS = 200_000
 
 KEPT_DEPTH = 3
 """How deep elements are kept: robot, joint, origin. What is deeper is only counted."""
+
+_BEFORE = re.compile(rb"(?:\xef\xbb\xbf)?\s*")
+"""What may stand before a declaration: the mark of UTF-8, and white space."""
+
+_LINE_END = re.compile(rb"\r\n?|\n")
+
+_MISPLACED_DECLARATION = expat.errors.codes[expat.errors.XML_ERROR_MISPLACED_XML_PI]
 
 _ASCII_LIKE = re.compile(r"utf-8|ascii|iso8859-\d+|cp125\d")
 
@@ -56,12 +64,40 @@ def read_elements(source: Source) -> Element:
     Raises:
         InputError: it is not well-formed, or is of a kind that a robot's description never is.
     """
-    return _Reading(source).root()
+    try:
+        return _Reading(source, source.content).root()
+    except InputError:
+        lenient = _without_comments(source.content)
+        if lenient == source.content:
+            raise
+        with suppress(InputError):
+            return _Reading(source, lenient).root()
+        raise
+
+
+def _without_comments(content: bytes) -> bytes:
+    """Returns the bytes with spaces for the text of comments, line ends kept: what stands there is nobody's matter.
+
+    Readers of URDF take two hyphens in a row and letters of any encoding there, which XML does not.
+    """
+    parts, at = [], 0
+    while (start := content.find(b"<!--", at)) >= 0 and (end := content.find(b"-->", start + 4)) >= 0:
+        parts += [content[at : start + 4], content[start + 4 : end].translate(_BLANK)]
+        at = end
+    return b"".join([*parts, content[at:]])
+
+
+_BLANK = bytes(byte if byte in b"\r\n" else ord(" ") for byte in range(256))
 
 
 class _Reading:
-    def __init__(self, source: Source) -> None:
+    def __init__(self, source: Source, content: bytes) -> None:
         self._source = source
+        before = _BEFORE.match(content)
+        assert before is not None
+        # A line that is empty before the declaration is not XML, and every reader of URDF skips it.
+        self._content, self._skipped = content[before.end() :], before.end()
+        self._lines = len(_LINE_END.findall(before[0]))
         self._open: list[Element] = []
         self._depth = self._count = 0
         self._root: Element | None = None
@@ -73,8 +109,11 @@ class _Reading:
 
     def root(self) -> Element:
         try:
-            self._parser.Parse(self._source.content, True)
+            self._parser.Parse(self._content, True)
         except expat.ExpatError as error:
+            if error.code == _MISPLACED_DECLARATION:
+                raise self._refused("<?xml begins here and not at the file's beginning; remove what stands before it",
+                                    error.lineno) from None  # fmt: skip
             raise self._refused(f"not valid XML: {expat.ErrorString(error.code)}", error.lineno) from None
         except (LookupError, ValueError) as error:  # pyexpat's own, of encodings
             raise self._refused(f"not valid XML: {error}; save the file as UTF-8") from None
@@ -95,7 +134,8 @@ class _Reading:
             )
         if self._depth > KEPT_DEPTH:
             return
-        element = Element(name, attributes, self._parser.CurrentLineNumber, self._parser.CurrentByteIndex)
+        line, byte = self._parser.CurrentLineNumber + self._lines, self._parser.CurrentByteIndex + self._skipped
+        element = Element(name, attributes, line, byte)
         if self._open:
             self._open[-1].children.append(element)
         else:
@@ -121,5 +161,5 @@ class _Reading:
         )
 
     def _refused(self, why: str, line: int | None = None) -> InputError:
-        where = self._parser.CurrentLineNumber if line is None else line
+        where = self._lines + (self._parser.CurrentLineNumber if line is None else line)
         return InputError(printable(f"{self._source.name}, line {where}: {why}"))

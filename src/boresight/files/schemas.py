@@ -195,6 +195,15 @@ class JointEntry(Entry):
             raise expected("no harmonics or sag for a joint that follows another")
         return self
 
+    @model_validator(mode="after")
+    def _a_ratio_is_to_another_joint(self) -> JointEntry:
+        if self.follows is None and self.ratio != 1.0:
+            raise expected(
+                f"follows: JOINT beside ratio, which multiplies that joint's reading; a joint's own is not multiplied: "
+                f"write column {self.name} of the observations times {self.ratio:g} instead"
+            )
+        return self
+
     @property
     def harmonics(self) -> tuple[float, ...]:
         """Heights of the four waves; none where none is named."""
@@ -342,6 +351,14 @@ class PointEntry(Entry):
     position: KnownTriple = Field(description="a list of 3 numbers, or unknown")
     position_std: Positive | None = None
 
+    @model_validator(mode="after")
+    def _what_is_unknown_has_no_std(self) -> PointEntry:
+        if self.position is None and self.position_std is not None:
+            raise expected(
+                "no position_std beside position: unknown; state a position and its position_std, or neither"
+            )
+        return self
+
 
 def _target_kind(value: Any) -> str:
     return "point" if isinstance(value, dict) and value.get("type") == "point" else "plane"
@@ -372,6 +389,11 @@ class DataEntry(Entry):
         if (self.file is None) == (self.bag is None):
             raise expected("the name of a file, or a block with a bag: {bag: run1, range: /ranger}")
         return self
+
+    @property
+    def of_bags(self) -> list[str]:
+        """The keys that are given and mean something of a bag alone."""
+        return [key for key in type(self).model_fields if key in self.model_fields_set - {"file", "bag"}]
 
     @property
     def name(self) -> str:
@@ -469,6 +491,12 @@ class CampaignEntry(Entry):
         if mount is not None and others.data.get("markers"):
             raise expected("either mount, or markers by name")
         return mount
+
+    @model_validator(mode="after")
+    def _gravity_that_is_off_bends_nothing(self) -> CampaignEntry:
+        if self.gravity == "off" and "gravity" in (self.beyond or ()):
+            raise expected("beyond without gravity beside gravity: off, or a direction of gravity")
+        return self
 
     @property
     def named_sensors(self) -> dict[str, SensorEntry]:

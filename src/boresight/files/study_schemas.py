@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, BeforeValidator, Field, Strict, WrapValidator, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, Strict, WrapValidator, field_validator, model_validator
 
 from boresight.calibration.solve import SolverName
 from boresight.files.schemas import (
@@ -78,6 +78,13 @@ Names = Annotated[Any, WrapValidator(_names)]
 Robot = Annotated[RobotChoice, BeforeValidator(robot_choice)]
 
 
+def _refuse(entry: Entry, keys: tuple[str, ...]) -> None:
+    """Refuses keys of a campaign that a study, which draws its own errors, would not heed."""
+    for key in keys:
+        if key in entry.model_fields_set:
+            raise expected(f"no {key} in a study, whose errors are those of estimate, drawn within their width")
+
+
 class VaryEntry(Entry):
     """What is varied: every key a list of values, the grid their product."""
 
@@ -122,6 +129,37 @@ class StudyEntry(Entry):
     generations: Generations = 500
     patience: Annotated[int, Strict(), Field(ge=1, le=MOST_GENERATIONS)] = 100
     vary: VaryEntry = VaryEntry()
+
+    @field_validator("sensor")
+    @classmethod
+    def _sensors_read_without_slips(cls, sensor: SensorEntry | None) -> SensorEntry | None:
+        if sensor is not None:
+            _refuse(sensor, ("bias_std", "scale_std", "offset_per", "markers"))
+        return sensor
+
+    @field_validator("base", "mount")
+    @classmethod
+    def _frames_stand_where_stated(cls, frame: FrameEntry) -> FrameEntry:
+        _refuse(frame, ("xyz_std", "rpy_std"))
+        return frame
+
+    @field_validator("targets")
+    @classmethod
+    def _planes_stand_where_stated(cls, targets: dict[str, PlaneEntry]) -> dict[str, PlaneEntry]:
+        for plane in targets.values():
+            _refuse(plane, ("normal_std", "offset_std", "flatness"))
+        return targets
+
+    @model_validator(mode="after")
+    def _evolution_is_part_of_it(self) -> StudyEntry:
+        keys = ("strategy", "population", "generations", "patience")
+        given = [key for key in keys if key in self.model_fields_set | self.vary.model_fields_set]
+        if given and all(solver == "least-squares" for solver in self.vary.solver or [self.solver]):
+            raise expected(
+                f"a solver with evolution beside {given[0]}, which least squares does not have: "
+                "solver: evolution+least-squares"
+            )
+        return self
 
     @model_validator(mode="after")
     def _one_cell(self) -> StudyEntry:
