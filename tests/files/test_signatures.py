@@ -15,7 +15,7 @@ import pytest
 from rosbags.rosbag1 import Writer
 from rosbags.typesys import Stores, get_typestore
 
-from boresight.cli.importing import run_import
+from boresight.cli.importing import ArmOf, run_import
 from boresight.errors import InputError
 from boresight.files import load_robot
 from boresight.files.bags import is_bag, read_bag
@@ -74,7 +74,7 @@ def ros1(tmp_path):
 
 def imported(path, output):
     with pytest.raises(InputError) as caught:
-        run_import(path, output, Choice(), robot=None, joint_file=None, marker=None, overwrite=False, as_json=False)
+        run_import(path, output, Choice(), arm=ArmOf(), joint_file=None, marker=None, overwrite=False, as_json=False)
     (told,) = caught.value.problems
     return told
 
