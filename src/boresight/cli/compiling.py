@@ -9,10 +9,16 @@ from typing import Any
 
 from rich.console import Console
 
-from boresight.kernels.compiling import first_compile_ahead
+from boresight.kernels.compiling import cached_on_disk, first_compile_ahead
 from boresight.kernels.evolving import evolve_generations
 from boresight.kernels.linearising import linearise_rows
 from boresight.search import Device
+
+_ONCE = "Compiling for this machine; this happens once and takes about ten seconds."
+_EVERY_TIME = (
+    "Compiling in memory, which takes about ten seconds every time: there is no place to keep what is compiled; name a "
+    "folder of yours in NUMBA_CACHE_DIR."
+)
 
 
 def told_of_compiling(*functions: Any, evolves: Device | None = None) -> bool:
@@ -28,8 +34,9 @@ def told_of_compiling(*functions: Any, evolves: Device | None = None) -> bool:
     if evolves is not None and not evolves.on_card and first_compile_ahead(evolve_generations, evolves.real):
         ahead.append(evolve_generations)
     if ahead:
-        Console(stderr=True).print("Compiling for this machine; this happens once and takes about ten seconds.")
-    if len(ahead) > 1 and linearise_rows in ahead:
+        kept = all(cached_on_disk(each) for each in ahead)
+        Console(stderr=True).print(_ONCE if kept else _EVERY_TIME)
+    if len(ahead) > 1 and linearise_rows in ahead and cached_on_disk(linearise_rows):
         nothing = subprocess.DEVNULL
         command = [sys.executable, "-P", "-m", "boresight.cli.warming"]
         with contextlib.suppress(OSError):  # then this process compiles it in its turn

@@ -16,6 +16,8 @@ import numba
 import numpy as np
 from numba.core import config
 
+from boresight.kernels.caching import cache_of
+
 _host = llvmlite.binding.get_host_cpu_features()
 if _host.get("avx512f") and config.CPU_FEATURES is None:  # type: ignore[attr-defined]
     # LLVM keeps to half the vector width of processors with AVX-512; these loops ran 1.6 times faster at the whole
@@ -35,7 +37,10 @@ def compiled(function: Callable[..., Any]) -> Any:
     The cache knows when the function's own file changes but not when those it calls do, so what was cached
     before the newest file of this package is dropped.
     """
-    dispatcher = numba.njit(cache=True, fastmath=True, error_model="numpy", nogil=True, forceinline=True)(function)
+    dispatcher: Any = numba.njit(fastmath=True, error_model="numpy", nogil=True, forceinline=True)(function)
+    cache = cache_of(function)
+    if cache is not None:
+        dispatcher._cache = cache
     for index in _cached(dispatcher):
         with contextlib.suppress(OSError):
             if index.stat().st_mtime < _NEWEST:
@@ -52,13 +57,23 @@ def first_compile_ahead(function: Any, real: type[np.floating] = np.float64) -> 
     """
     is_single = ["float32" in str(signature) for signature in function.signatures]
     for index in _cached(function):
-        known = index.read_bytes()  # names the types of each version that was compiled, and the file it lies in
+        try:
+            known = index.read_bytes()  # names the types of each version that was compiled, and the file it lies in
+        except OSError:
+            continue
         singles = int(b"float32" in known)
         is_single += [True] * singles + [False] * (known.count(b".nbc") - singles)
     return (np.dtype(real) == np.float32) not in is_single
 
 
+def cached_on_disk(function: Any) -> bool:
+    """Returns whether there is a place where what is compiled can be kept."""
+    return function.stats.cache_path is not None
+
+
 def _cached(dispatcher: Any) -> list[Path]:
     """Returns the index files under which a compiled function lies on disk."""
+    if not cached_on_disk(dispatcher):
+        return []
     stem = Path(dispatcher.py_func.__code__.co_filename).stem
     return list(Path(dispatcher.stats.cache_path).glob(f"{stem}.{dispatcher.py_func.__name__}-*.nbi"))
