@@ -103,17 +103,22 @@ def random_cell(seed: int, rows: int) -> tuple[TrueArm, TrueCell, np.ndarray, np
             continue
 
 
-def outcome(seed: int, rows: int) -> Outcome:
-    """Returns what became of one cell."""
+def measured_cell(seed: int, rows: int) -> tuple[TrueArm, TrueCell, Readings, np.random.Generator]:
+    """Returns a nominal arm, the true cell, its readings, and a generator for what comes after."""
     nominal, cell, joints, target = random_cell(seed, rows)
-    random = np.random.default_rng([2027, seed])
+    random = np.random.default_rng([2027, seed + 1])
     values = ranges(cell, joints, target)[0] + random.normal(0.0, NOISE_M, rows)
     gross = random.choice(rows, round(GROSS * rows), replace=False)
-    values[gross] = np.abs(
-        values[gross] + random.uniform(0.02, 0.4, len(gross)) * random.choice([-1.0, 1.0], len(gross))
-    )
-    readings = Readings(joints, values[:, None], np.full((rows, 1), NOISE_M), target, np.arange(rows) + 2)
-    _load_kernels()
+    amount = random.uniform(0.02, 0.4, len(gross)) * random.choice([-1.0, 1.0], len(gross))
+    values[gross] = np.abs(values[gross] + amount)
+    std = np.full((rows, 1), NOISE_M)
+    return nominal, cell, Readings(joints, values[:, None], std, target, np.arange(rows) + 2), random
+
+
+def outcome(seed: int, rows: int) -> Outcome:
+    """Returns what became of one cell."""
+    load_kernels()
+    nominal, cell, readings, random = measured_cell(seed, rows)
     start = time.process_time()
     try:
         found = find_frames(package_cell(nominal, cell), readings, UNKNOWN, seed).cell
@@ -121,24 +126,21 @@ def outcome(seed: int, rows: int) -> Outcome:
         return Outcome(nominal.count, rows, "refused", time.process_time() - start, np.inf)
     seconds = time.process_time() - start
     checked = anywhere(cell, CHECKED, random)
-    own = _errors(cell, fitted_from_truth(nominal, cell, joints, target, values), checked)
+    own = _errors(cell, fitted_from_truth(nominal, cell, readings), checked)
     placed = _errors(cell, TrueCell(nominal, found.base.matrix, found.mounts["mount"].matrix), checked)
     ratio = float(np.max(placed / own))
     return Outcome(nominal.count, rows, "found" if ratio < NEAR else "wrong", seconds, ratio)
 
 
 @cache
-def _load_kernels() -> None:
-    """Finds one placement, so that loading compiled loops is in nobody's time."""
-    nominal, cell, joints, target = random_cell(-1, 45)
-    values = ranges(cell, joints, target)[0][:, None]
-    readings = Readings(joints, values, np.full(values.shape, NOISE_M), target, np.arange(45) + 2)
-    find_frames(package_cell(nominal, cell), readings, UNKNOWN, 0)
+def load_kernels() -> None:
+    """Finds two placements, so that loading compiled loops and libraries is in nobody's time."""
+    for rows in (45, 100):
+        nominal, cell, readings, _ = measured_cell(-1, rows)
+        find_frames(package_cell(nominal, cell), readings, UNKNOWN, 0)
 
 
-def fitted_from_truth(
-    nominal: TrueArm, cell: TrueCell, joints: np.ndarray, target: np.ndarray, values: np.ndarray
-) -> TrueCell:
+def fitted_from_truth(nominal: TrueArm, cell: TrueCell, readings: Readings) -> TrueCell:
     """Returns the nominal arm with base and mount where a robust fit of the ranges leads from where they truly are."""
     from scipy.optimize import least_squares
 
@@ -150,7 +152,9 @@ def fitted_from_truth(
         return TrueCell(nominal, base, mount, cell.planes)
 
     def left(x: np.ndarray) -> np.ndarray:
-        return np.concatenate([ranges(placed(x), joints, target)[0] - values, 1e-6 * x])
+        return np.concatenate(
+            [ranges(placed(x), readings.joints, readings.target)[0] - readings.values[:, 0], 1e-6 * x]
+        )
 
     return placed(least_squares(left, np.zeros(12), loss="soft_l1", f_scale=0.02).x)
 
