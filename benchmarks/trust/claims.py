@@ -26,7 +26,8 @@ class Claims:
         joints: (rows, joints) configurations [rad or m].
         position, orientation: (rows, 3) [m] and (rows, 3, 3) of the tool there.
         radius: (rows,) that holds each position with 95 % probability, of that accuracy [m].
-        angle: (rows,) the same of the orientation, absolute [rad].
+        angle: (rows,) the same of the orientation [rad].
+        beam_alone: whether that orientation is the beam's, its spin left out.
         explanations, sensitivities: names of effects, best first.
         sentences: warnings, then reasons.
     """
@@ -38,6 +39,7 @@ class Claims:
     orientation: np.ndarray
     radius: np.ndarray
     angle: np.ndarray
+    beam_alone: bool
     explanations: tuple[str, ...]
     sensitivities: tuple[str, ...]
     sentences: tuple[str, ...]
@@ -72,8 +74,9 @@ def claims_of(result: Any) -> Claims:
         joints,
         poses[:, :3, 3],
         poses[:, :3, :3],
-        np.asarray(_first(judged, "position_radius", "position_95")),
-        np.asarray(_first(workspace, "orientation_radius", "orientation_95")),
+        np.asarray(getattr(judged, "pose", workspace).position_95),
+        np.asarray(getattr(judged, "pose", workspace).orientation_95),
+        bool(getattr(getattr(judged, "pose", workspace), "beam_alone", False)),
         tuple(each.effect for each in getattr(result, "explanations", None) or ()),
         tuple(each.effect for each in getattr(result, "sensitivities", None) or ()),
         (*result.warnings, *result.verdict.reasons),

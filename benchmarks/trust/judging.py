@@ -56,10 +56,14 @@ def position_errors(found: np.ndarray, truth: np.ndarray) -> dict[str, np.ndarra
 
 def rigidly_aligned(points: np.ndarray, to: np.ndarray) -> np.ndarray:
     """Returns (rows, 3) points after the rotation and translation that bring them nearest (Kabsch 1976)."""
-    centre, goal = points.mean(axis=0), to.mean(axis=0)
-    u, _, vt = np.linalg.svd((points - centre).T @ (to - goal))
+    return (points - points.mean(axis=0)) @ aligning_turn(points, to).T + to.mean(axis=0)
+
+
+def aligning_turn(points: np.ndarray, to: np.ndarray) -> np.ndarray:
+    """Returns (3, 3) that rotation."""
+    u, _, vt = np.linalg.svd((points - points.mean(axis=0)).T @ (to - to.mean(axis=0)))
     mirror = np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ vt))])
-    return (points - centre) @ (u @ mirror @ vt) + goal
+    return (u @ mirror @ vt).T
 
 
 def turn_errors(found: np.ndarray, truth: np.ndarray) -> np.ndarray:
@@ -69,6 +73,12 @@ def turn_errors(found: np.ndarray, truth: np.ndarray) -> np.ndarray:
         [apart[:, 2, 1] - apart[:, 1, 2], apart[:, 0, 2] - apart[:, 2, 0], apart[:, 1, 0] - apart[:, 0, 1]], axis=1
     )
     return np.arctan2(np.linalg.norm(sine, axis=1), 0.5 * (np.trace(apart, axis1=1, axis2=2) - 1.0))
+
+
+def beam_errors(found: np.ndarray, truth: np.ndarray) -> np.ndarray:
+    """Returns (rows,) angles [rad] between the z axes of (rows, 3, 3) orientations."""
+    across = np.linalg.norm(np.cross(found[:, :, 2], truth[:, :, 2]), axis=1)
+    return np.arctan2(across, np.einsum("ri,ri->r", found[:, :, 2], truth[:, :, 2]))
 
 
 def rms(values: np.ndarray) -> float:

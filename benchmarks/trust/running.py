@@ -14,7 +14,7 @@ import numpy as np
 from benchmarks.trust.campaign_files import write_campaign
 from benchmarks.trust.case import Case, draw
 from benchmarks.trust.claims import Claims, claims_of
-from benchmarks.trust.judging import outcome_of, position_errors, rms, turn_errors
+from benchmarks.trust.judging import aligning_turn, beam_errors, outcome_of, position_errors, rms, turn_errors
 from benchmarks.trust.scenarios import SCENARIOS
 
 
@@ -91,6 +91,8 @@ def judged(case: Case, seed: int, claims: Claims, seconds: float) -> Record:
     error = errors[claims.accuracy]
     named = claims.names(fault.effects, fault.words)
     ratio = rms(error) / max(rms(claims.radius), 1e-12)
+    turned = beam_errors if claims.beam_alone else turn_errors
+    align = aligning_turn(claims.position, place) if claims.accuracy == "relative" else np.eye(3)
     return Record(
         case.scenario.name,
         seed,
@@ -103,7 +105,7 @@ def judged(case: Case, seed: int, claims: Claims, seconds: float) -> Record:
         inside=float(np.mean(error <= claims.radius)),
         absolute=rms(errors["absolute"]),
         relative=rms(errors["relative"]),
-        angle_ratio=rms(turn_errors(claims.orientation, turn)) / max(rms(claims.angle), 1e-12),
+        angle_ratio=rms(turned(align @ claims.orientation, turn)) / max(rms(claims.angle), 1e-12),
         named=named,
         explanations=claims.explanations,
         sensitivities=claims.sensitivities,

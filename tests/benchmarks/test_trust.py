@@ -141,9 +141,10 @@ def result(explanations=(), warnings=(), **more):
 
 def test_a_result_is_judged_by_what_it_is_accepted_for():
     assert claims.claims_of(result()).accuracy == "absolute"
-    seen = SimpleNamespace(joints=np.ones((4, 6)))
     both = {
-        name: SimpleNamespace(position_radius=np.full(4, r), pose=seen)
+        name: SimpleNamespace(
+            pose=SimpleNamespace(joints=np.ones((4, 6)), position_95=np.full(4, r), orientation_95=np.full(4, r))
+        )
         for name, r in (("absolute", 2.0), ("relative", 3.0))
     }
     told = claims.claims_of(result(accuracy=SimpleNamespace(**both), verdict={"accepted_for": "relative"}))
