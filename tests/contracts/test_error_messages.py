@@ -31,7 +31,7 @@ PINNED = [
         ("laser_ranger", "laser_rangr"),
         [
             "campaign.yaml, line 2: sensor.type: got 'laser_rangr' (did you mean laser_ranger?); "
-            "expected one of laser_ranger, draw_wire, position, pose, plane_contact, distances"
+            "expected one of laser_ranger, draw_wire, position, pose, plane_contact, point_contact, distances"
         ],
     ),
     (

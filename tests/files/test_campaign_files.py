@@ -64,7 +64,7 @@ def test_all_faults_of_a_campaign_are_told_at_once(folder, campaign_with):
     folder.write(campaign=text + "mount: {xyz: unknwon, rpy: [1, 2]}\n")
     assert folder.problems() == (
         "campaign.yaml, line 2: sensor.type: got 'lazer_ranger' (did you mean laser_ranger?); "
-        "expected one of laser_ranger, draw_wire, position, pose, plane_contact, distances",
+        "expected one of laser_ranger, draw_wire, position, pose, plane_contact, point_contact, distances",
         "campaign.yaml, line 2: sensor.noise_std: got -1; expected a number above 0",
         "campaign.yaml, line 2: sensor.repeats: got 2.5; expected a whole number",
         "campaign.yaml, line 9: mount.xyz: got 'unknwon'; expected a list of 3 finite numbers, or unknown",

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from boresight.geometry import Plane, Point, quaternion_matrix
-from boresight.sensing import Aim, DrawWire, PlaneContact, Pose
+from boresight.sensing import Aim, DrawWire, PlaneContact, PointContact, Pose
 
 WIRE = """\
 robot: robot.yaml
@@ -232,3 +232,35 @@ def test_positions_are_joined_in_pairs_where_distances_count(folder, campaign_wi
     np.testing.assert_allclose(readings.std, 0.0002 / np.sqrt(4) * np.sqrt(2))
     (aside,) = campaign.set_aside
     assert (aside.line, aside.reason) == (6, "no position of its block is left to which its distance could be told")
+
+
+CONTACT = """\
+robot: robot.yaml
+units: {length: mm, angle: deg}
+sensor: {type: point_contact, noise_std: 0.1}
+targets:
+  cone: {type: point, position: [300, 0, 100]}
+  cup: {type: point, position: unknown}
+observations: observations.csv
+"""
+
+
+def test_contacts_with_points_have_no_columns_of_their_own(folder):
+    campaign = folder.write(campaign=CONTACT, observations="j1,j2,target\n10,20,cup\n30,20,cone\n").load()
+    assert campaign.cell.sensor == PointContact(0.1 * 1e-3)
+    assert campaign.unknown == {"cup.x", "cup.y", "cup.z"}
+    assert campaign.readings.values.tolist() == [[0.0, 0.0, 0.0]] * 2
+    assert campaign.readings.std == pytest.approx(np.full((2, 3), 1e-4))
+    assert [campaign.cell.aims[place].target for place in campaign.readings.target] == ["cup", "cone"]
+
+
+def test_a_contact_with_a_point_needs_one(folder, campaign_with):
+    assert folder.write(campaign=campaign_with(("laser_ranger", "point_contact"))).problem() == (
+        "campaign.yaml, line 2: sensor: a point_contact touches a point and there is none; "
+        "expected targets: {anchor: {type: point, position: [1, 0, 0]}}"
+    )
+
+
+def test_a_contact_has_no_zero_and_no_unit_of_length(folder):
+    text = CONTACT.replace("noise_std: 0.1", "noise_std: 0.1, bias_std: 0.1")
+    assert "expected no bias_std, as a point_contact has no bias" in folder.write(campaign=text).problem()

@@ -17,6 +17,7 @@ _WHAT = {
     "position": "position",
     "pose": "position",
     "plane_contact": "contact",
+    "point_contact": "contact",
     "distances": "distance",
 }
 

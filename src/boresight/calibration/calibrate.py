@@ -197,8 +197,9 @@ def _beyond(campaign: Campaign, solution: Solution, seed: int) -> tuple[Solution
 def _notes(campaign: Campaign, identified: Cell, solver: Solver) -> tuple[str, ...]:
     said = []
     if solver.name != "least-squares" and any(not sensor.readouts for sensor in identified.sensors.values()):
+        slow = [sensor.type for sensor in identified.sensors.values() if not sensor.readouts]
         said.append(
-            "Evolution ran a thousand times slower than it can, as distances have no compiled form; `--solver "
+            f"Evolution ran a thousand times slower than it can, as {slow[0]} has no compiled form; `--solver "
             "least-squares` finds the same where the nominal model is near."
         )
     if campaign.robot_file is not None and identified.arm.is_bent:

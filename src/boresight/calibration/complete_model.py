@@ -25,6 +25,7 @@ from jaxtyping import Bool, Float
 
 from boresight.calibration.noise_size import NoiseSize
 from boresight.calibration.robust import Fit
+from boresight.calibration.scale_held import scale_held
 from boresight.inference import Moments
 from boresight.inference.coverage import effective_freedom, interval_factor
 from boresight.inference.posterior import posterior_root
@@ -126,7 +127,10 @@ def complete_model(fit: Fit, others: Mapping[str, float], noise: NoiseSize) -> C
     S = whole @ whole.T
     D = C @ (J.T @ K)
     by_others = np.vstack([-D, np.eye(len(others))])
-    mean = by_others @ (S @ -(K.T @ triangle.residual)) if others else np.zeros(free)
+    pull = -(K.T @ triangle.residual)
+    held = scale_held(problem.cell, problem.readings, names)
+    pull *= [name != held for name in others]  # smaller arms leave smaller residuals of contacts, and mean nothing
+    mean = by_others @ (S @ pull) if others else np.zeros(free)
     covariance = by_others @ S @ by_others.T + np.outer(mean, mean)
     covariance[:free, :free] += C
     of_noise = np.zeros_like(covariance)

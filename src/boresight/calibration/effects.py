@@ -17,6 +17,7 @@ from boresight.calibration.freedom import link_candidates
 from boresight.calibration.jumps import Jump
 from boresight.calibration.linear import equipped
 from boresight.calibration.problem import Problem
+from boresight.calibration.scale_held import scale_held
 from boresight.geometry import Point
 from boresight.sensing import Cell, Readings
 from boresight.sensing.cell import FRAME_NUMBERS
@@ -52,6 +53,8 @@ def effects_of(problem: Problem, x: Float[np.ndarray, "free"], *, gravity: bool)
     cell, readings = problem.cell, problem.readings
     slopes = all_slopes(cell, readings, problem.corrections(x))
     free = set(problem.names)
+    names = tuple(name for name in cell.index if name in free.union(link_candidates(cell.arm)))
+    free |= {scale_held(cell, readings, names) or ""}  # a smaller arm leaves less of contacts, and explains nothing
     found = [*_constants(cell, readings, slopes, free), *_of_joints(cell, readings, slopes, free)]
     if gravity:
         found += _sag(cell, readings, problem.corrections(x))

@@ -7,6 +7,7 @@ import math
 from boresight.arm import LINK_NUMBERS, Arm
 from boresight.arm.conventions import NEARLY_PARALLEL
 from boresight.calibration.campaign import Campaign, Freedom
+from boresight.calibration.scale_held import scale_held
 from boresight.inference import select_visible
 from boresight.sensing import Cell, Readings
 from boresight.sensing.linear import seen_by
@@ -32,14 +33,34 @@ def freedoms_of(campaign: Campaign, cell: Cell) -> tuple[Freedom, ...]:
         campaign: what was asked for.
         cell: its cell, with unknown frames where they were found.
     """
-    sought = campaign.sought - campaign.fixed
-    frames = tuple(Freedom(name, None, campaign.priors.get(name)) for name in cell.index if name in sought)
-    asked = {f.parameter: f for f in campaign.freedoms or () if f.parameter not in campaign.fixed | campaign.sought}
-    first = frames + tuple(asked[name] for name in cell.index if name in asked)
+    first = _asked(campaign, cell)
+    held = _carries_scale(campaign, cell, first)
+    first = tuple(freedom for freedom in first if freedom.parameter != held)
     if not campaign.chosen_by_default:
         return first
     assert campaign.readings is not None
-    return _visible(cell, campaign.readings, first, campaign)
+    return _visible(cell, campaign.readings, first, campaign, held)
+
+
+def length_of_scale(campaign: Campaign, cell: Cell) -> str | None:
+    """Returns the length that a campaign holds since its readings do not see the arm's scale; None where they do."""
+    return _carries_scale(campaign, cell, _asked(campaign, cell))
+
+
+def _carries_scale(campaign: Campaign, cell: Cell, first: tuple[Freedom, ...]) -> str | None:
+    if campaign.readings is None:
+        return None
+    named = {freedom.parameter for freedom in first}
+    links = set(link_candidates(cell.arm)) - campaign.fixed if campaign.chosen_by_default else set()
+    return scale_held(cell, campaign.readings, tuple(name for name in cell.index if name in named | links))
+
+
+def _asked(campaign: Campaign, cell: Cell) -> tuple[Freedom, ...]:
+    """Returns what a campaign names, unknown frames first."""
+    sought = campaign.sought - campaign.fixed
+    frames = tuple(Freedom(name, None, campaign.priors.get(name)) for name in cell.index if name in sought)
+    asked = {f.parameter: f for f in campaign.freedoms or () if f.parameter not in campaign.fixed | campaign.sought}
+    return frames + tuple(asked[name] for name in cell.index if name in asked)
 
 
 def link_candidates(arm: Arm) -> list[str]:
@@ -68,12 +89,15 @@ def _parallel(arm: Arm) -> list[bool]:
     ]
 
 
-def _visible(cell: Cell, readings: Readings, first: tuple[Freedom, ...], campaign: Campaign) -> tuple[Freedom, ...]:
+def _visible(
+    cell: Cell, readings: Readings, first: tuple[Freedom, ...], campaign: Campaign, held: str | None
+) -> tuple[Freedom, ...]:
     """Returns what comes first and every link parameter that shows something the ones before it do not."""
     within = usual_within(cell.arm)
     usual = {p.name: within[p.quantity] for p in cell.parameters}
     before = [freedom.parameter for freedom in first]
-    links = [name for name in link_candidates(cell.arm) if name not in campaign.fixed and name not in before]
+    left = campaign.fixed.union(before, [held] if held else [])
+    links = [name for name in link_candidates(cell.arm) if name not in left]
     names = before + links
     seen = seen_by(cell, readings, names)
     chosen = {names[i] for i in select_visible(seen * [usual[name] for name in names], list(range(len(names))))}

@@ -30,7 +30,7 @@ from boresight.inference.posterior import FLAT_PRIOR
 from boresight.sensing import Cell, Readings
 from boresight.sensing.cell import FRAME_NUMBERS
 from boresight.sensing.linear import model_of, seen_by
-from boresight.synthetic import draw_configurations, exact_readings
+from boresight.synthetic import draw_configurations, exact_readings, with_reachable_points
 from boresight.units import UNIT_OF
 
 USUAL_ROWS = 100
@@ -132,6 +132,7 @@ def inspect(campaign: Campaign, *, rows: int | None = None, seed: int = 0) -> In
     drawn = rows is not None or campaign.readings is None
     readings = campaign.readings
     if readings is None or rows is not None:
+        cell = with_reachable_points(cell, frozenset() if measured else campaign.unknown, seed)
         readings = _drawn(cell, rows or USUAL_ROWS, seed)
     campaign = replace(campaign, readings=readings)
     freedoms = freedoms_of(campaign, cell)

@@ -81,6 +81,8 @@ class Jump:
         more = self.size > 0.0
         if self.type == "plane_contact":
             return f"the tip is felt {amount} {'lower' if more else 'higher'} over its plane"
+        if self.type == "point_contact":
+            return f"the tip is felt {amount} {'more' if more else 'less'} along {self.channel} of its point"
         which = "" if self.sensor == "sensor" else f" of {self.sensor}"
         if self.type in ("laser_ranger", "draw_wire"):
             return f"the {'range' if self.type == 'laser_ranger' else 'length'}s{which} are {amount} {_longer(more)}"

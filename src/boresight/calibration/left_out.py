@@ -8,7 +8,7 @@ import numpy as np
 
 from boresight.arm import Arm
 from boresight.calibration.campaign import Campaign, Freedom
-from boresight.calibration.freedom import link_candidates, usual_within
+from boresight.calibration.freedom import length_of_scale, link_candidates, usual_within
 from boresight.inference import listed
 from boresight.sensing import Cell, Readings
 from boresight.sensing.linear import seen_by
@@ -34,20 +34,34 @@ class LeftOut:
 
 
 def left_out(campaign: Campaign, cell: Cell, freedoms: tuple[Freedom, ...]) -> tuple[LeftOut, ...]:
-    """Returns what the default choice left out; nothing where the campaign chose itself.
+    """Returns what the default choice left out; of what the campaign chose itself, the length that carries the scale.
 
     Args:
         campaign: with readings.
         cell: its cell, with unknown frames where they were found.
         freedoms: the choice.
     """
-    if not campaign.chosen_by_default:
-        return ()
-    assert campaign.readings is not None
     free = [freedom.parameter for freedom in freedoms]
-    unseen = [name for name in link_candidates(cell.arm) if name not in campaign.fixed and name not in free]
+    scale = _scale(campaign, cell)
+    if not campaign.chosen_by_default:
+        return scale
+    assert campaign.readings is not None
+    held = campaign.fixed.union(out.parameter for out in scale)
+    unseen = [name for name in link_candidates(cell.arm) if name not in held and name not in free]
     replaced = [out for out in _replaced(cell.arm) if out.parameter not in campaign.fixed]
-    return (*replaced, *_explained(cell, campaign.readings, unseen, free))
+    return (*scale, *replaced, *_explained(cell, campaign.readings, unseen, free))
+
+
+def _scale(campaign: Campaign, cell: Cell) -> tuple[LeftOut, ...]:
+    """Returns the length that is held as contacts do not see the scale, where there is one."""
+    held = length_of_scale(campaign, cell)
+    if held is None:
+        return ()
+    reason = (
+        "scale is not seen: contacts with points at unknown places know no unit of length, and all other lengths are "
+        "in proportion to it; state the positions of two points to see it"
+    )
+    return (LeftOut(held, reason),)
 
 
 def left_out_in_words(out: tuple[LeftOut, ...]) -> tuple[str, ...]:

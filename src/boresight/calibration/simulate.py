@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from boresight.calibration.campaign import Campaign
 from boresight.calibration.freedom import USUAL_WITHIN, link_candidates
 from boresight.sensing import Cell, Readings
-from boresight.synthetic import draw_configurations, perturbed, simulated_readings
+from boresight.synthetic import draw_configurations, perturbed, simulated_readings, with_reachable_points
 
 UNKNOWN_WITHIN = {"length": 0.3, "angle": 0.3, "number": 0.3}
 """How far [m, rad] a frame that the campaign calls unknown is put from the identity."""
@@ -47,8 +47,9 @@ def simulate(
         size: factor on the errors.
         seed: of the truth, the configurations and the noise.
     """
-    truth = perturbed(campaign.cell, {name: size * width for name, width in _widths(campaign).items()}, seed)
-    both = (campaign.cell, truth) if not campaign.unknown else (truth,)
+    cell = with_reachable_points(campaign.cell, campaign.unknown, seed)
+    truth = perturbed(cell, {name: size * width for name, width in _widths(campaign, cell).items()}, seed)
+    both = (cell, truth) if not campaign.unknown else (truth,)
     if rows is None and campaign.readings is not None:
         joints, target = campaign.readings.joints, campaign.readings.target
     else:
@@ -61,11 +62,12 @@ def simulate(
     )
 
 
-def _widths(campaign: Campaign) -> dict[str, float]:
-    """Returns how far each parameter may be off."""
-    cell = campaign.cell
+def _widths(campaign: Campaign, cell: Cell) -> dict[str, float]:
+    """Returns how far each parameter may be off; points that were put within reach stay there."""
     quantity = {parameter.name: parameter.quantity for parameter in cell.parameters}
-    widths = {name: UNKNOWN_WITHIN[quantity[name]] for name in campaign.unknown}
+    placed = {name for name, target in cell.targets.items() if target != campaign.cell.targets[name]}
+    unknown = (name for name in campaign.unknown if name.rpartition(".")[0] not in placed)
+    widths = {name: UNKNOWN_WITHIN[quantity[name]] for name in unknown}
     widths |= dict.fromkeys(cell.offsets, OFFSETS_WITHIN)
     if campaign.chosen_by_default:
         widths |= {name: 0.2 * USUAL_WITHIN[quantity[name]] for name in link_candidates(cell.arm)}

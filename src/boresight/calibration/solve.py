@@ -172,8 +172,8 @@ def _compiled_cost(problem: Problem, solver: Solver) -> CompiledCost:
     cost = problem.robust_cost
     if not isinstance(cost, CompiledCost):
         raise BoresightError(
-            f"device {solver.device} cannot evolve readings of distances: use device cpu in double precision, or least "
-            "squares"
+            f"device {solver.device} cannot evolve readings of distances or point contacts: use device cpu in double "
+            "precision, or least squares"
         )
     return cost
 

@@ -10,7 +10,18 @@ from boresight.files.documents import Document
 from boresight.files.problems import Problems, listed, shown
 from boresight.files.schemas import CampaignEntry, FrameEntry, PlaceEntry, PointEntry, SensorEntry
 from boresight.geometry import Frame, Plane, Point
-from boresight.sensing import Aim, Distances, DrawWire, LaserRanger, PlaneContact, Pose, Position, Sensor, Target
+from boresight.sensing import (
+    Aim,
+    Distances,
+    DrawWire,
+    LaserRanger,
+    PlaneContact,
+    PointContact,
+    Pose,
+    Position,
+    Sensor,
+    Target,
+)
 from boresight.sensing.aims import targets_of
 from boresight.units import Units
 
@@ -27,8 +38,8 @@ def sensor_of(entry: SensorEntry, units: Units) -> Sensor:
         return Pose(noise, entry.noise_angle_std * units.radians, repeats)
     if entry.type == Distances.type:
         return Distances(math.sqrt(2.0) * noise, repeats)
-    kinds: dict[str, type[LaserRanger | DrawWire | Position | PlaneContact]]
-    kinds = {kind.type: kind for kind in (LaserRanger, DrawWire, Position, PlaneContact)}
+    kinds: dict[str, type[LaserRanger | DrawWire | Position | PlaneContact | PointContact]]
+    kinds = {kind.type: kind for kind in (LaserRanger, DrawWire, Position, PlaneContact, PointContact)}
     return kinds[entry.type](noise, repeats)
 
 
@@ -91,6 +102,7 @@ _VERBS = {
     "laser_ranger": "points at a target",
     "draw_wire": "is drawn to a point",
     "plane_contact": "touches a plane",
+    "point_contact": "touches a point",
 }
 
 

@@ -285,13 +285,15 @@ def robot_choice(value: Any) -> Any:
     return {"file": value} if isinstance(value, str) else value
 
 
-SensorType = Literal["laser_ranger", "draw_wire", "position", "pose", "plane_contact", "distances"]
+SensorType = Literal["laser_ranger", "draw_wire", "position", "pose", "plane_contact", "point_contact", "distances"]
 
 
 class SensorEntry(Entry):
     """`sensor: {type: laser_ranger, noise_std: 0.0002, repeats: 10}`."""
 
-    type: SensorType = Field(description="laser_ranger, draw_wire, position, pose, plane_contact or distances")
+    type: SensorType = Field(
+        description="laser_ranger, draw_wire, position, pose, plane_contact, point_contact or distances"
+    )
     noise_std: Positive = Field(description="the standard deviation of one reading, in the length unit")
     noise_angle_std: Positive | None = None
     repeats: Annotated[int, Strict(), Field(ge=1, le=10**9)] = 1

@@ -22,6 +22,7 @@ _KINDS = {
     "draw_wire": "length error",
     "pose": "pose error",
     "plane_contact": "contact error",
+    "point_contact": "contact error",
     "distances": "distance error",
 }
 
@@ -46,6 +47,7 @@ def _errors_table(result: Result) -> Table:
         "laser_ranger": "range error",
         "draw_wire": "length error",
         "plane_contact": "contact error",
+        "point_contact": "contact error",
         "distances": "distance error",
         "pose": "pose error",
     }

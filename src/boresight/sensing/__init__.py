@@ -7,6 +7,7 @@ from boresight.sensing.distances import Distances as Distances
 from boresight.sensing.draw_wire import DrawWire as DrawWire
 from boresight.sensing.laser_ranger import LaserRanger as LaserRanger
 from boresight.sensing.plane_contact import PlaneContact as PlaneContact
+from boresight.sensing.point_contact import PointContact as PointContact
 from boresight.sensing.pose import Pose as Pose
 from boresight.sensing.position import Position as Position
 from boresight.sensing.readings import Readings as Readings

@@ -2,6 +2,7 @@
 
 from boresight.synthetic.gross_errors import spoiled as spoiled
 from boresight.synthetic.named_errors import named_errors as named_errors
+from boresight.synthetic.reachable import with_reachable_points as with_reachable_points
 from boresight.synthetic.readings import draw_configurations as draw_configurations
 from boresight.synthetic.readings import exact_readings as exact_readings
 from boresight.synthetic.readings import perturbed as perturbed

@@ -13,7 +13,7 @@ from jaxtyping import Float, Int
 
 from boresight.errors import InputError
 from boresight.geometry import Plane, vector_rotation
-from boresight.sensing import Cell, LaserRanger, PlaneContact, Pose, Readings
+from boresight.sensing import Cell, LaserRanger, PlaneContact, PointContact, Pose, Readings
 from boresight.sensing.pairs import of_distances, pairs_of
 from boresight.synthetic.touching import touching
 
@@ -64,12 +64,18 @@ def draw_configurations(
             if len(found) >= len(wanted):
                 break
             drawn = random.uniform(limits[:, 0], limits[:, 1], (max(64, 4 * len(wanted)), len(limits)))
-            if isinstance(cell.sensors[aim.sensor], PlaneContact):
+            if isinstance(cell.sensors[aim.sensor], PlaneContact | PointContact):
                 drawn = touching(cells[-1], drawn, place)
                 good = np.all((drawn >= limits[:, 0]) & (drawn <= limits[:, 1]), axis=1)
             else:
                 good = np.all([_sees(each, drawn, place) for each in cells], axis=0)
             found = np.concatenate([found, drawn[good]])
+        if len(found) < len(wanted) and isinstance(cell.sensors[aim.sensor], PointContact):
+            raise InputError(
+                f"hardly any configuration within the joints' limits touches point {aim.target!r}: check its position "
+                "and the limits; a point that is unknown needs one that is about right, which a campaign may state "
+                "with `position_std`"
+            )
         if len(found) < len(wanted):
             raise InputError(
                 f"hardly any configuration within the joints' limits sees target {aim.target!r} from at least "
@@ -102,9 +108,10 @@ def simulated_readings(
             turned = reference[rows] @ vector_rotation(noise[rows, 3:6] / sensor.lever)
             reference = _with_rows(reference, rows, turned)
             noise[rows, 3:6] = 0.0
-        elif isinstance(sensor, PlaneContact):  # it reads nothing: noise is where the arm is when contact is felt
-            moved[rows] = touching(cell, moved[rows], place, noise[rows, 0])
-            noise[rows, 0] = -exact.values[rows, 0]
+        elif isinstance(sensor, PlaneContact | PointContact):  # they read nothing: noise is where the arm is then
+            own = slice(0, len(sensor.channels))
+            moved[rows] = touching(cell, moved[rows], place, noise[rows, own])
+            noise[rows, own] = -exact.values[rows, own]
     return replace(exact, joints=moved, values=exact.values + noise, reference=reference)
 
 

@@ -16,10 +16,11 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from boresight.geometry import Plane, inverse
+from boresight.geometry import Plane, Point, inverse
 from boresight.sensing import Cell, Readings
 from boresight.sensing.laser_ranger import LaserRanger
 from boresight.sensing.plane_contact import PlaneContact
+from boresight.sensing.point_contact import PointContact
 from boresight.sensing.pose import Pose
 from boresight.sensing.position import Position
 
@@ -77,6 +78,8 @@ def equations_of(cell: Cell, readings: Readings) -> Equations | None:
             part = _on_plane(flange, target, lengths)
         elif isinstance(sensor, PlaneContact) and isinstance(target, Plane):
             part = _on_plane(flange, target, np.zeros(len(rows)))
+        elif isinstance(sensor, PointContact) and isinstance(target, Point):
+            part = _at_points(flange, np.tile(target.xyz, (len(rows), 1)))
         elif isinstance(sensor, Position | Pose):
             part = _at_points(flange, values[:, :3] / (1.0 + sensor.scale))
             if isinstance(sensor, Pose) and readings.reference is not None:

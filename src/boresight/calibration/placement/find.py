@@ -16,6 +16,12 @@ from boresight.calibration.placement.placements import Placements, Unknowns
 from boresight.calibration.placement.search import TRIALS, search
 from boresight.calibration.placement.settling import settled
 from boresight.calibration.placement.telling_apart import alike_in_words, mirrored_in_words
+from boresight.calibration.placement.touched_points import (
+    only_touched,
+    placed_by_contacts,
+    rows_at,
+    unknown_points,
+)
 from boresight.calibration.slips import slips
 from boresight.calibration.thinning import thinned
 from boresight.errors import InputError
@@ -81,6 +87,9 @@ def find_frames(
     readings = readings.chosen(thinned(readings))
     if set(names) <= set(cell.offsets):  # they add to readings: a straight line leads there from anywhere
         return Placed(settled(cell, readings, names)[0])
+    points = unknown_points(cell, names)
+    if points and only_touched(cell, readings, points):
+        return _placed_by_contacts(cell, readings, names, points, seed, stated_std)
     placed = _placed_by_equations(cell, readings, names, stated_std)
     if placed is None:
         placed = Placed(placed_by_evolution(cell, readings, names, seed))
@@ -90,6 +99,35 @@ def find_frames(
             "from their planes; check the joint columns, their units and the planes"
         )
     return placed
+
+
+def _placed_by_contacts(
+    cell: Cell,
+    readings: Readings,
+    names: tuple[str, ...],
+    points: tuple[str, ...],
+    seed: int,
+    stated_std: Mapping[str, float],
+) -> Placed:
+    """Returns the placement where unknown points are touched: frames by all other rows, then points by contacts.
+
+    Raises:
+        InputError: the base is unknown too, and all rows are contacts of unknown points.
+    """
+    frames = [name for name in names if name.rpartition(".")[0] not in points]
+    others = np.flatnonzero(~rows_at(cell, readings, points))
+    warnings: tuple[str, ...] = ()
+    if len(others) and frames:
+        found = find_frames(cell, readings.chosen(others), frozenset(frames), seed, stated_std)
+        cell, warnings, frames = found.cell, found.warnings, []
+    if any(name.startswith("base.") for name in frames):
+        raise InputError(
+            f"`base` and the points {listed(points)} are unknown, and every reading is a contact of these points: "
+            "nothing ties the base to the world; leave `base` out, which then is the world, or state the positions of "
+            "three points"
+        )
+    mounts = tuple(name for name in cell.mounts if f"{name}.x" in frames)
+    return Placed(settled(placed_by_contacts(cell, readings, points, mounts), readings, names)[0], warnings)
 
 
 @dataclass(frozen=True)
