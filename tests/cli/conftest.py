@@ -20,6 +20,7 @@ class Said:
 def boresight(tmp_path, monkeypatch, capsys):
     """Runs a command in a folder of its own, on a machine that has compiled the search before."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("BORESIGHT_TRACEBACK", "1")
     monkeypatch.setattr("boresight.cli.compiling.first_compile_ahead", lambda *called: False)
 
     def run(*arguments):

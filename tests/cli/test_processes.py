@@ -1,5 +1,6 @@
 """Whole processes: what only a real one shows."""
 
+import json
 import os
 import signal
 import subprocess
@@ -7,6 +8,8 @@ import sys
 import time
 
 import pytest
+
+from boresight.cli import main
 
 
 def start(*arguments, folder, **options):
@@ -19,6 +22,7 @@ def finished(*arguments, folder):
     process = start(*arguments, folder=folder)
     out, err = process.communicate(timeout=120)
     assert "Traceback" not in out + err
+    assert "defect of Boresight" not in err
     return process.returncode, out, err
 
 
@@ -85,3 +89,53 @@ def test_output_piped_into_head_is_no_traceback(one_plane, tmp_path):
     command = f"{sys.executable} -m boresight calibrate {one_plane.campaign} --solver least-squares | head -n 1"
     done = subprocess.run(["bash", "-c", command], cwd=tmp_path, capture_output=True, text=True, env={**os.environ})
     assert (done.stdout, done.stderr) == ("ACCEPTED  mine\n", "")
+
+
+QUICK = ("--solver", "least-squares", "-o", "out")
+
+
+@pytest.mark.parametrize("options", [(), ("--json",)])
+def test_a_closed_standard_output_is_no_reason_to_fail(one_plane, tmp_path, options):
+    command = [sys.executable, "-m", "boresight", "calibrate", str(one_plane.campaign), *QUICK, *options]
+    shell = ["sh", "-c", '"$@" >&-', "sh", *command]
+    ended = subprocess.run(shell, cwd=tmp_path, stderr=subprocess.PIPE, text=True, check=False)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert (tmp_path / "out" / "result.json").exists()
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no full device here")
+@pytest.mark.parametrize("options", [(), ("--json",)])
+def test_a_full_standard_output_is_told_and_the_result_is_there(one_plane, tmp_path, options):
+    with open("/dev/full", "w") as full:
+        process = start("calibrate", one_plane.campaign, *QUICK, *options, folder=tmp_path, stdout=full)
+        _, err = process.communicate(timeout=120)
+    assert process.returncode == 1
+    assert err == "Error: standard output: No space left on device; files that the command names were written\n"
+    assert (tmp_path / "out" / "result.json").exists()
+
+
+def test_what_an_encoding_lacks_is_written_as_an_escape(one_plane, tmp_path):
+    folder = one_plane.campaign.parent
+    folder = folder.rename(folder.with_name("\u05d0\U0001f600"))
+    ascii_only = {"env": os.environ | {"PYTHONIOENCODING": "ascii"}}
+    for options in ((), ("--json",)):
+        with start("calibrate", folder / "campaign.yaml", *QUICK, *options, folder=tmp_path, **ascii_only) as process:
+            out, err = process.communicate(timeout=120)
+        assert (process.returncode, err) == (0, "")
+    assert json.loads(out)["name"] == "\u05d0\U0001f600"
+
+
+def test_a_defect_is_told_in_a_sentence(monkeypatch, capsys):
+    def broken(*_, **__):
+        raise ZeroDivisionError("division by zero")
+
+    monkeypatch.setattr("boresight.cli.inspect.run_inspect", broken)
+    monkeypatch.setattr("sys.argv", ["boresight", "inspect", "campaign.yaml"])
+    monkeypatch.delenv("BORESIGHT_TRACEBACK", raising=False)
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 1
+    told = capsys.readouterr().err
+    assert told.startswith("Error: this is a defect of Boresight ")
+    assert "(ZeroDivisionError: division by zero)" in told
+    assert told.count("\n") == 1

@@ -10,7 +10,7 @@ from boresight.calibration import Campaign, Solver, calibrate
 from boresight.calibration.solve import EVOLUTION
 from boresight.cli.codes import LARGEST_SEED, REJECTED
 from boresight.cli.compiling import told_of_compiling
-from boresight.cli.consoles import PipedConsole, print_plain
+from boresight.cli.consoles import PipedConsole, print_json
 from boresight.cli.devices import chosen_device
 from boresight.cli.doing import Doing
 from boresight.errors import InputError
@@ -63,7 +63,7 @@ def run_calibrate(
         doing.begin(f"writing {folder.name}")
         written = write_result(result, folder, __version__)
     if as_json:
-        print_plain(result_json(result, __version__))
+        print_json(result_json(result, __version__))
     else:
         print_summary(PipedConsole(), result, written)
     return 0 if result.verdict.accepted else REJECTED

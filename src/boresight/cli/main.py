@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import os
 import sys
 
 from cyclopts import CycloptsError
 
+from boresight import __version__
 from boresight.cli import conversions  # noqa: F401  its commands are the app's
 from boresight.cli.app import app
 from boresight.cli.codes import INTERRUPTED
-from boresight.cli.consoles import PipedConsole
+from boresight.cli.consoles import PipedConsole, prepare_output
 from boresight.errors import BoresightError
+
+TRACEBACK = "BORESIGHT_TRACEBACK"
+"""The environment variable that shows where a defect lies."""
 
 
 def main() -> None:
     """Runs the command line and exits with its code."""
+    prepare_output()
     try:
         # cyclopts itself would exit with 2, which here means a rejected result.
         code = app(sys.argv[1:], result_action="return_value", exit_on_error=False, console=PipedConsole())
@@ -26,7 +32,23 @@ def main() -> None:
     except KeyboardInterrupt:
         print("Interrupted; nothing was written.", file=sys.stderr)
         code = INTERRUPTED
+    except Exception as error:  # a defect, of which the user has no use for the traceback
+        if os.environ.get(TRACEBACK):
+            raise
+        _say(BoresightError(_defect(error)))
+        code = 1
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _defect(error: Exception) -> str:
+    """Returns the sentence that says that Boresight, and not its input, is at fault."""
+    from boresight.files.problems import printable  # which brings all that reads files with it
+
+    what = printable(f"{type(error).__name__}: {error}")[:300]
+    return (
+        f"this is a defect of Boresight {__version__}, not of your files ({what}); please report it with the command, "
+        f"the files, and what is printed with {TRACEBACK}=1 set"
+    )
 
 
 def _say(error: BoresightError) -> None:
