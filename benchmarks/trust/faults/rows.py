@@ -25,7 +25,7 @@ def shifted_rows(by: int) -> Fault:
     """Returns values that stand so many rows below their configurations."""
     return Fault(
         ("row*",),
-        r"row order|shifted",
+        r"row order|shifted|one row (earlier|later)",
         rows=lambda rows, random: replace(rows, values=np.roll(rows.values, by, axis=0)),
     )
 

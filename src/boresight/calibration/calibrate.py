@@ -15,7 +15,7 @@ from boresight.calibration.estimates import estimates_of
 from boresight.calibration.expected_gain import expected_gain
 from boresight.calibration.freedom import freedoms_of
 from boresight.calibration.gross import MOST_LEFT_OUT, beyond_help, grossly_off, share_left_out
-from boresight.calibration.holdout import by_cross_validation, on_validation_rows, row_sizes, summarise
+from boresight.calibration.holdout import HeldOut, by_cross_validation, on_validation_rows, row_sizes, summarise
 from boresight.calibration.left_out import left_out, left_out_in_words
 from boresight.calibration.missing import find_missing
 from boresight.calibration.model_error import model_error
@@ -34,6 +34,7 @@ from boresight.calibration.verdict import LOUD, Evidence, judge
 from boresight.errors import InputError
 from boresight.inference import (
     identify_directions,
+    listed,
     movements_of,
     spread_configurations,
     tool_accuracy,
@@ -171,6 +172,7 @@ def _calibrated(campaign: Campaign, solver: Solver, on_progress: Progress | None
             *campaign.warnings,
             *placed.warnings,
             *_warnings(solution.fit),
+            *_gross_in_validation(held_out),
             *(words for words in missing.words if words not in verdict.reasons),
         ),
         jumps=missing.jumps,
@@ -208,6 +210,18 @@ def _notes(campaign: Campaign, identified: Cell, solver: Solver) -> tuple[str, .
             "robot-calibrated.yaml holds all."
         )
     return tuple(said)
+
+
+def _gross_in_validation(held_out: HeldOut) -> tuple[str, ...]:
+    lines = held_out.gross
+    if not lines:
+        return ()
+    do, plural = ("do", "s") if len(lines) > 1 else ("does", "")
+    return (
+        f"{len(lines)} validation row{plural} {do} not fit with the others (line{plural} "
+        f"{listed([str(line) for line in lines])}): they are as wrong as no fit would use, so the result is not "
+        "judged by them. Look at them before you use it.",
+    )
 
 
 def _warnings(fit: Fit) -> tuple[str, ...]:

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
 from boresight.calibration.configurations import configurations_of
 from boresight.calibration.problem import Problem, rms
 from boresight.calibration.result import ErrorSummary, Residuals
-from boresight.calibration.robust import Fit, refine
+from boresight.calibration.robust import Fit, refine, threshold
 from boresight.inference import posterior_root
 from boresight.sensing import Cell, Readings
 from boresight.sensing.linear import model_of
 
 FOLDS = 5
+
+GROSS, MOST_GROSS = 2.0, 0.25
+"""A validation row is grossly wrong beyond so many times what would leave it out of a fit; no more than this share of
+them can be."""
 
 
 @dataclass(frozen=True)
@@ -29,6 +33,7 @@ class HeldOut:
         configuration: (rows,) number of the configuration a row was taken in; each row's its own where None.
         expected: (rows,) mean square [m²] that each row's error should have: of the readings' noise, of the model's own
             error, and of parameters as they are known from the other rows; None where not told.
+        gross: lines of validation rows that do not fit with the others and are not judged by; their sizes are NaN.
     """
 
     method: str
@@ -36,19 +41,35 @@ class HeldOut:
     after: Float[np.ndarray, "rows"]
     configuration: Int[np.ndarray, "rows"] | None = None
     expected: Float[np.ndarray, "rows"] | None = None
+    gross: tuple[int, ...] = ()
 
     @property
     def residuals(self) -> Residuals:
         """These errors, summarised over the rows that both models can predict."""
-        return summarise(self.method, self.before, self.after)
+        found = summarise(self.method, self.before, self.after)
+        return replace(found, missed=found.missed - len(self.gross))
 
 
 def on_validation_rows(fit: Fit, rows: Readings) -> HeldOut:
-    """Returns the errors on rows kept for validation."""
+    """Returns the errors on rows kept for validation, those aside that are as grossly wrong as no fit would use."""
     nominal, identified = fit.problem.cell, fit.problem.fitted(fit.x)
     before, after = error_sizes(nominal, rows), error_sizes(identified, rows)
     expected = _expected(fit.problem, fit.x, rows)
-    return HeldOut("validation rows", before, after, configurations_of(rows.joints), expected)
+    gross = _gross(after, expected, rows)
+    before[gross] = after[gross] = np.nan
+    lines = tuple(rows.line[gross].tolist())
+    return HeldOut("validation rows", before, after, configurations_of(rows.joints), expected, lines)
+
+
+def _gross(
+    after: Float[np.ndarray, "rows"], expected: Float[np.ndarray, "rows"], rows: Readings
+) -> Bool[np.ndarray, "rows"]:
+    """Returns which rows chance gives once in a million, by what the usual row is off; none where they are many."""
+    size = after / np.sqrt(expected)
+    typical = max(float(np.nanmedian(size)) if np.isfinite(size).any() else 1.0, 1.0)
+    limit = np.array([np.inf, *(threshold(count) for count in range(1, rows.channels.max(initial=0) + 1))])
+    gross = np.nan_to_num(size, nan=0.0) > GROSS * typical * limit[rows.channels]
+    return gross if np.count_nonzero(gross) <= MOST_GROSS * len(rows) else np.zeros(len(rows), dtype=bool)
 
 
 def by_cross_validation(fit: Fit, seed: int) -> HeldOut:

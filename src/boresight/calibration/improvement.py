@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from boresight.calibration.gross import GROSS_RATIO, GROSS_SHARE
 from boresight.calibration.holdout import HeldOut
 
 RESAMPLES = 2000
@@ -75,3 +76,13 @@ def _grouped(
 def _resamples(random: np.random.Generator, count: int) -> Iterator[np.ndarray]:
     for _ in range(RESAMPLES):
         yield random.integers(0, count, count)
+
+
+def held_out_grossly_off(held_out: HeldOut, reach: float) -> bool:
+    """Returns whether errors on held-out rows are grossly above what is expected of them, beside an arm's reach [m]."""
+    seen = np.isfinite(held_out.after)
+    if held_out.expected is None or not seen.any():
+        return False
+    size = float(np.sqrt(np.mean(held_out.after[seen] ** 2)))
+    expected = float(np.sqrt(np.mean(held_out.expected[seen])))
+    return size > GROSS_RATIO * expected and size > GROSS_SHARE * reach

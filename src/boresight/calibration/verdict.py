@@ -12,7 +12,7 @@ from boresight.calibration.campaign import Term
 from boresight.calibration.explanation import Explanation
 from boresight.calibration.gross import MOST_LEFT_OUT, grossly_off, share_left_out
 from boresight.calibration.holdout import HeldOut
-from boresight.calibration.improvement import FEWEST, Improvement, improvement
+from boresight.calibration.improvement import FEWEST, Improvement, held_out_grossly_off, improvement
 from boresight.calibration.problem import Problem
 from boresight.calibration.result import AcceptedFor, Verdict
 from boresight.calibration.robust import Fit, NoiseCheck, check_noise
@@ -138,6 +138,12 @@ def _causes(evidence: Evidence, change: Improvement) -> list[str]:
             f"Residuals stay at {in_millimetres(problem.model_std)}, {check_noise(fit).ratio:.2g}x the stated noise, "
             f"which is more than gears and gravity do to an arm of {problem.cell.arm.reach:.3g} m: something else is "
             "wrong."
+        )
+    elif held_out_grossly_off(evidence.held_out, problem.cell.arm.reach):
+        said.append(
+            f"The calibrated arm fits the rows it was fitted to and not the held-out ones, {size.method}: errors of "
+            f"{in_millimetres(size.after.rms)} there. Check their joints, targets and units, and whether anything was "
+            "moved before they were taken."
         )
     if fit.search.outcome is Outcome.EVALUATIONS:
         said.append(
