@@ -17,8 +17,7 @@ from boresight.errors import InputError
 from boresight.files import load_campaign
 from boresight.kernels.evolving import evolve_generations
 from boresight.kernels.linearising import linearise_rows
-from boresight.report.document import result_json
-from boresight.report.folder import check_writable, write_result
+from boresight.report.folder import RESULT_FILE, check_writable, write_result
 from boresight.report.summary import print_summary
 from boresight.search import STRATEGIES, DifferentialEvolution, Stops
 from boresight.search.devices import DeviceName, Precision
@@ -63,7 +62,7 @@ def run_calibrate(
         doing.begin(f"writing {folder.name}")
         written = write_result(result, folder, __version__)
     if as_json:
-        print_json(result_json(result, __version__))
+        print_json((written / RESULT_FILE).read_text(encoding="utf-8"))
     else:
         print_summary(PipedConsole(), result, written)
     return 0 if result.verdict.accepted else REJECTED

@@ -21,6 +21,8 @@ TRACEBACK = "BORESIGHT_TRACEBACK"
 def main() -> None:
     """Runs the command line and exits with its code."""
     prepare_output()
+    if writing := sys.modules.get("boresight.files.writing"):
+        writing.begin()
     try:
         # cyclopts itself would exit with 2, which here means a rejected result.
         code = app(sys.argv[1:], result_action="return_value", exit_on_error=False, console=PipedConsole())
@@ -30,7 +32,7 @@ def main() -> None:
         _say(error)
         code = 1
     except KeyboardInterrupt:
-        print("Interrupted; nothing was written.", file=sys.stderr)
+        print(_interrupted(), file=sys.stderr)
         code = INTERRUPTED
     except Exception as error:  # a defect, of which the user has no use for the traceback
         if os.environ.get(TRACEBACK):
@@ -38,6 +40,13 @@ def main() -> None:
         _say(BoresightError(_defect(error)))
         code = 1
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _interrupted() -> str:
+    from boresight.files.writing import written
+
+    paths = list(dict.fromkeys(map(str, written())))
+    return f"Interrupted, after {paths[-1]} was written." if paths else "Interrupted; nothing was written."
 
 
 def _defect(error: Exception) -> str:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 from boresight.errors import OutputError
+from boresight.files.writing import PREFIX, uninterrupted
 
 
 def check_folder(folder: Path, what: str, ours: Iterable[str], is_ours: Callable[[Path], bool], called: str) -> None:
@@ -39,9 +40,52 @@ def check_folder(folder: Path, what: str, ours: Iterable[str], is_ours: Callable
 
 @contextlib.contextmanager
 def staged(folder: Path) -> Iterator[Path]:
-    """Yields a temporary folder on the same file system, and removes it."""
-    staging = Path(tempfile.mkdtemp(prefix=".boresight-", dir=folder))
+    """Yields a temporary folder on the same file system, and removes it; those that killed runs left too."""
+    _remove_left_behind(folder)
+    staging = Path(tempfile.mkdtemp(prefix=PREFIX, dir=folder))
     try:
-        yield staging
+        with _held(staging):
+            yield staging
     finally:
         shutil.rmtree(staging, ignore_errors=True)
+
+
+def swap_in(staging: Path, folder: Path, names: Iterable[str], gone: Iterable[str] = ()) -> None:
+    """Moves staged files into their folder, without a Ctrl-C in between.
+
+    Args:
+        staging: where they lie.
+        folder: where they belong.
+        names: of the files, in their order.
+        gone: names of files that do not belong there any more.
+    """
+    with uninterrupted(folder):
+        for name in gone:
+            (folder / name).unlink(missing_ok=True)
+        for name in names:
+            os.replace(staging / name, folder / name)
+
+
+def _remove_left_behind(folder: Path) -> None:
+    """Removes staged folders that no running process holds."""
+    for other in folder.glob(f"{PREFIX}*"):
+        if not other.is_dir() or other.is_symlink():
+            continue
+        with contextlib.suppress(OSError, BlockingIOError), _held(other):
+            shutil.rmtree(other, ignore_errors=True)
+
+
+@contextlib.contextmanager
+def _held(folder: Path) -> Iterator[None]:
+    """Holds a lock on a folder that dies with the process; raises a BlockingIOError where another process holds it."""
+    try:
+        import fcntl
+    except ImportError:  # on Windows, where what another process works in cannot be removed
+        yield
+        return
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        yield
+    finally:
+        os.close(handle)

@@ -14,8 +14,9 @@ from boresight.calibration.campaign import Campaign
 from boresight.calibration.simulate import Rehearsal
 from boresight.errors import OutputError
 from boresight.files.columns import QUATERNION
+from boresight.files.folders import staged, swap_in
 from boresight.files.robots import dump_robot
-from boresight.files.writing import write_atomically
+from boresight.files.writing import PREFIX
 from boresight.geometry import matrix_quaternion
 from boresight.sensing import Aim, Cell, Distances, Pose, Readings
 from boresight.units import Units
@@ -37,17 +38,26 @@ def write_rehearsal(campaign: Campaign, rehearsal: Rehearsal, source: Path, fold
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        taken = any(folder.iterdir())
+        taken = any(not each.name.startswith(PREFIX) for each in folder.iterdir())  # what a killed run left is removed
     except OSError as error:
         raise OutputError(f"{folder}: cannot be written: {error.strerror or error}") from error
     if taken:
         raise OutputError(f"{folder}: is not empty; nothing is overwritten: name a new folder with -o")
     text, units = _campaign_text(source)
-    write_atomically(folder / "robot.yaml", dump_robot(campaign.cell.arm, "the nominal robot of a simulated campaign"))
-    write_atomically(folder / "observations.csv", _readings_csv(rehearsal.truth, rehearsal.readings, units))
-    write_atomically(folder / "validation.csv", _readings_csv(rehearsal.truth, rehearsal.validation, units))
-    write_atomically(folder / "truth.json", _truth_json(rehearsal))
-    write_atomically(folder / "campaign.yaml", text)
+    contents = {
+        "robot.yaml": dump_robot(campaign.cell.arm, "the nominal robot of a simulated campaign"),
+        "observations.csv": _readings_csv(rehearsal.truth, rehearsal.readings, units),
+        "validation.csv": _readings_csv(rehearsal.truth, rehearsal.validation, units),
+        "truth.json": _truth_json(rehearsal),
+        "campaign.yaml": text,
+    }
+    try:
+        with staged(folder) as staging:
+            for name, content in contents.items():
+                (staging / name).write_text(content, encoding="utf-8", newline="\n")
+            swap_in(staging, folder, contents)
+    except OSError as error:
+        raise OutputError(f"{folder}: cannot be written: {error.strerror or error}") from error
     return folder / "campaign.yaml"
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -22,12 +24,13 @@ SCHEMA = "boresight-result/1"
 """Name and version of the layout; the number grows when a key changes its meaning or goes."""
 
 
-def result_document(result: Result, version: str) -> dict[str, Any]:
+def result_document(result: Result, version: str, files: Mapping[str, str] = MappingProxyType({})) -> dict[str, Any]:
     """Returns a result as dictionaries, lists, numbers and strings; lengths in m, angles in rad.
 
     Args:
         result: the result.
         version: of the software that made it.
+        files: SHA-256 of each file beside it, by name.
     """
     return {
         "schema": SCHEMA,
@@ -140,12 +143,13 @@ def result_document(result: Result, version: str) -> dict[str, Any]:
         "search": _search(result),
         "urdf": _urdf(result),
         "inputs": dict(result.inputs),
+        "files": dict(files),
     }
 
 
-def result_json(result: Result, version: str) -> str:
-    """Returns the text of `result.json`."""
-    return json.dumps(result_document(result, version), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+def result_json(result: Result, version: str, files: Mapping[str, str]) -> str:
+    """Returns the text of `result.json`; see `result_document`."""
+    return json.dumps(result_document(result, version, files), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def _beyond(beyond: Beyond | None) -> dict[str, Any] | None:

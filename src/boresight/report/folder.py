@@ -2,28 +2,30 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
-import os
 from pathlib import Path
 
 from boresight.calibration.result import Result
 from boresight.errors import OutputError
 from boresight.files import dump_robot
-from boresight.files.folders import check_folder, staged
+from boresight.files.folders import check_folder, staged, swap_in
 from boresight.files.splicing import calibrated_urdf
 from boresight.report.document import SCHEMA, result_json
 from boresight.report.page import render_page
 from boresight.report.tables import convergence_csv, pose_uncertainty_csv, residuals_csv
 
 RESULT_FILE = "result.json"
+ROBOT_FILE = "robot-calibrated.yaml"
+PAGE_FILE = "report.html"
 URDF_FILE = "robot-calibrated.urdf"
 _OURS = (
-    "robot-calibrated.yaml",
+    ROBOT_FILE,
     URDF_FILE,
     "residuals.csv",
     "convergence.csv",
     "pose-uncertainty.csv",
-    "report.html",
+    PAGE_FILE,
     RESULT_FILE,
 )
 
@@ -31,8 +33,8 @@ _OURS = (
 def write_result(result: Result, folder: Path, version: str) -> Path:
     """Returns the folder a result was written to: the one asked for, or one beside it for a rejected result.
 
-    Files are written to a temporary folder and renamed, `result.json` last, so that an interrupted run leaves
-    what was there.
+    Files are written to a temporary folder and renamed, `result.json` last, which names the others by their SHA-256:
+    where a killed run left some of two results, `load_result` refuses them.
 
     Args:
         result: the result.
@@ -48,14 +50,15 @@ def write_result(result: Result, folder: Path, version: str) -> Path:
         chosen = beside.with_name(f"{beside.name}-rejected")
     check_writable(chosen)
     contents: dict[str, str | bytes] = {
-        "robot-calibrated.yaml": dump_robot(result.cell.arm, _robot_comment(result)),
+        ROBOT_FILE: dump_robot(result.cell.arm, _robot_comment(result)),
         **_urdf(result),
         "residuals.csv": residuals_csv(result),
         "convergence.csv": convergence_csv(result),
         "pose-uncertainty.csv": pose_uncertainty_csv(result),
-        "report.html": render_page(result, version),
-        RESULT_FILE: result_json(result, version),
+        PAGE_FILE: render_page(result, version),
     }
+    digests = {name: digest_of(each) for name, each in contents.items() if name != PAGE_FILE}  # which tells the time
+    contents[RESULT_FILE] = result_json(result, version, digests)
     try:
         chosen.mkdir(parents=True, exist_ok=True)
         with staged(chosen) as staging:
@@ -64,13 +67,16 @@ def write_result(result: Result, folder: Path, version: str) -> Path:
                     (staging / name).write_bytes(content)
                 else:
                     (staging / name).write_text(content, encoding="utf-8", newline="\n")
-            if URDF_FILE not in contents:
-                (chosen / URDF_FILE).unlink(missing_ok=True)  # an earlier result's, which is not this arm
-            for name in contents:
-                os.replace(staging / name, chosen / name)
+            # an earlier result's URDF is not this arm
+            swap_in(staging, chosen, contents, gone=() if URDF_FILE in contents else (URDF_FILE,))
     except OSError as error:
         raise OutputError(f"{chosen}: cannot write the result: {error.strerror or error}") from error
     return chosen
+
+
+def digest_of(content: str | bytes) -> str:
+    """Returns the SHA-256 of a file's content."""
+    return hashlib.sha256(content if isinstance(content, bytes) else content.encode("utf-8")).hexdigest()
 
 
 def check_writable(folder: Path) -> None:

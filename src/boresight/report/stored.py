@@ -14,7 +14,7 @@ from boresight.files import load_robot
 from boresight.files.problems import printable
 from boresight.files.sources import read_source
 from boresight.report.document import SCHEMA
-from boresight.report.folder import RESULT_FILE
+from boresight.report.folder import RESULT_FILE, ROBOT_FILE, URDF_FILE, digest_of
 from boresight.report.frames_beside import EstimatedFrame, estimated_frames
 
 LIMIT_MIB = 64
@@ -59,6 +59,7 @@ def load_result(folder: Path) -> StoredResult:
         wanted = "the folder that boresight calibrate wrote"
         raise InputError(printable(f"{folder}: holds no {RESULT_FILE}{_near(folder)}; expected {wanted}"))
     document = _document(folder)
+    _check_files(folder, document)
     identified = load_robot(folder / "robot-calibrated.yaml")
     described = document.get("urdf")
     try:
@@ -98,6 +99,22 @@ def _document(folder: Path) -> dict[str, Any]:
     if schema != SCHEMA:
         raise InputError(printable(f"{source.name}: schema {schema!r}; expected {SCHEMA}"))
     return document
+
+
+def _check_files(folder: Path, document: Mapping[str, Any]) -> None:
+    """Raises an `InputError` where a file that describes the arm is not the one that the result was written with."""
+    digests = document.get("files")
+    if not isinstance(digests, dict):
+        return  # of an earlier version
+    for name in (ROBOT_FILE, URDF_FILE):
+        path = folder / name
+        if name in digests and path.is_file() and digest_of(path.read_bytes()) != digests[name]:
+            raise InputError(
+                printable(
+                    f"{path}: does not belong to {RESULT_FILE} beside it: a run was killed between the two, or the "
+                    "file was edited; calibrate again"
+                )
+            )
 
 
 def _with_numbers(arm: Arm, numbers: Mapping[str, float]) -> Arm:
