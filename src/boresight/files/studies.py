@@ -33,6 +33,9 @@ STUDIED = ("laser_ranger", "position")
 MOST_POINTS = 10_000
 """More than anyone looks at."""
 
+MOST_RUNS = 2_000_000
+"""Campaigns of all points together: hours of many cores, and hundreds of megabytes to keep their outcomes."""
+
 _ROWS = 35
 
 
@@ -57,6 +60,12 @@ def load_study(path: Path | str, *, seeds: int | None = None) -> Study:
     count = math.prod((len(benches), *(len(values) for values in axes.values())))
     if count > MOST_POINTS:
         raise InputError(f"{document.at(('vary',))}the grid has {count:,} points; expected at most {MOST_POINTS:,}")
+    runs = count * (seeds or entry.seeds)
+    if runs > MOST_RUNS:
+        raise InputError(
+            f"{document.at(('seeds',))}{count:,} points with {seeds or entry.seeds:,} seeds each are {runs:,} "
+            f"campaigns; expected at most {MOST_RUNS:,}"
+        )
     try:
         points = grid(benches, axes, settings)
     except InputError as error:
