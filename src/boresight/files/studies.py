@@ -17,7 +17,7 @@ from boresight.files.composing import KeyPath
 from boresight.files.documents import Document, read_document
 from boresight.files.explaining import validated
 from boresight.files.patterns import Matcher
-from boresight.files.problems import Problems, listed, shown
+from boresight.files.problems import Problems, listed, printable, shown
 from boresight.files.schemas import CampaignEntry, RobotChoice
 from boresight.files.study_schemas import StudyEntry
 from boresight.sensing import Cell
@@ -71,7 +71,7 @@ def load_study(path: Path | str, *, seeds: int | None = None) -> Study:
     except InputError as error:
         raise InputError(f"{document.at(())}{error}") from None
     varied = [axis for axis in AXES if len({point.label(axis) for point in points}) > 1]
-    return Study(entry.name or document.path.stem, points, tuple(varied), seeds or entry.seeds)
+    return Study(entry.name or printable(document.path.stem), points, tuple(varied), seeds or entry.seeds)
 
 
 def _benches(document: Document, entry: StudyEntry, problems: Problems) -> tuple[dict[str, Bench], Mapping[str, Any]]:

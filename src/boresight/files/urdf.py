@@ -69,7 +69,9 @@ def robot_file_of(source: Source, base: str | None = None, tip: str | None = Non
             printable(f"{source.name}: no joint from {base} to {tip} moves; expected an arm between base and tip")
         )
     title = root.attributes.get("name", "").strip()
-    chain = SerialChain(title if title.isprintable() and title else Path(source.name).stem, base, tip, joints_read)
+    chain = SerialChain(
+        title if title.isprintable() and title else printable(Path(source.name).stem), base, tip, joints_read
+    )
     return RobotFile(source.name, source.content, _following(chain, tree, source.name))
 
 
