@@ -48,6 +48,7 @@ _LOOK: Any = {
     "savefig.dpi": 160,
     "svg.hashsalt": "boresight",
     "svg.fonttype": "none",
+    "text.parse_math": False,  # names that a user gives are names, whatever is in them
 }
 
 
@@ -78,6 +79,25 @@ def panels(rows: int = 1, columns: int = 1, panel: tuple[float, float] = PANEL) 
     return figure, axes
 
 
+def _take_names_as_they_are(figure: Figure) -> None:
+    """Has no text of a figure read as a formula: names are names, whatever a user calls things.
+
+    Logarithmic axes write their ticks as formulas by themselves; they get plain numbers in the same places.
+    """
+    from matplotlib.text import Text
+    from matplotlib.ticker import FuncFormatter, LogFormatter
+
+    for axes in figure.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            for which in ("major", "minor"):
+                own = getattr(axis, f"get_{which}_formatter")()
+                if isinstance(own, LogFormatter):
+                    number = FuncFormatter(lambda value, place, own=own: f"{value:g}" if own(value, place) else "")
+                    getattr(axis, f"set_{which}_formatter")(number)
+    for text in figure.findobj(Text):
+        text.set_parse_math(False)
+
+
 def save(figure: Figure, stem: Path) -> tuple[Path, Path]:
     """Returns the PNG and the SVG file of a figure, written to a temporary name and renamed.
 
@@ -86,6 +106,7 @@ def save(figure: Figure, stem: Path) -> tuple[Path, Path]:
         stem: path without its ending; its folder exists.
     """
     written = []
+    _take_names_as_they_are(figure)
     with look():
         for ending, metadata in (("png", {"Software": None}), ("svg", {"Date": None})):
             path = stem.with_name(f"{stem.name}.{ending}")

@@ -194,3 +194,9 @@ def test_a_file_that_may_not_be_read_says_so(tmp_path, monkeypatch):
 
 def test_what_a_terminal_would_obey_is_escaped(refusal):
     assert "\x1b" not in refusal('a: 1\n"\\e[31m": 1\n"\\e[31m": 2\n')
+
+
+def test_an_escape_of_no_character_is_told(tmp_path):
+    (tmp_path / "a.yaml").write_text('a: "\\UFFFFFFFF"')
+    with pytest.raises(InputError, match=r"a\.yaml: not valid YAML: an escape such as \\UFFFFFFFF names no character"):
+        read_document(tmp_path / "a.yaml", "a.yaml")

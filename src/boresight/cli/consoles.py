@@ -8,9 +8,11 @@ from __future__ import annotations
 import json
 import os
 import sys
+from collections.abc import Iterator
 from typing import Any, NoReturn
 
 from rich.console import Console
+from rich.segment import Segment
 
 from boresight.errors import OutputError
 
@@ -22,6 +24,19 @@ class PipedConsole(Console):
         """Sends what is still to come nowhere; rich would exit with 1, which here means an error in input."""
         self.quiet = True
         silence_output()
+
+    def render(self, renderable: Any, options: Any = None) -> Iterator[Segment]:
+        """Yields what is printed, with characters that a terminal would obey written as escapes.
+
+        Names of files, topics and sessions may hold any.
+        """
+        for segment in super().render(renderable, options):
+            text = segment.text
+            if segment.control or text.isprintable() or all(c.isprintable() or c == "\n" for c in text):
+                yield segment
+            else:
+                shown = "".join(c if c.isprintable() or c == "\n" else ascii(c)[1:-1] for c in text)
+                yield Segment(shown, segment.style, segment.control)
 
     def print(self, *objects: Any, **options: Any) -> None:
         """Prints as rich does.

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from types import TracebackType
 
-from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, Task, TextColumn, TimeRemainingColumn
 from rich.text import Text
+
+from boresight.cli.consoles import PipedConsole
 
 
 class _TimeLeft(TimeRemainingColumn):
@@ -24,7 +25,7 @@ class Doing:
     """
 
     def __init__(self, *, silent: bool = False) -> None:
-        console = Console(stderr=True)
+        console = PipedConsole(stderr=True)
         self._progress = Progress(
             SpinnerColumn(),
             TextColumn("{task.description}"),

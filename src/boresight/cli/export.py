@@ -8,6 +8,7 @@ from pathlib import Path
 from boresight.arm.conventions import Convention
 from boresight.cli.consoles import silence_output
 from boresight.errors import InputError, OutputError
+from boresight.files.problems import printable
 from boresight.files.writing import write_atomically
 from boresight.report.export import Format, export
 from boresight.report.stored import load_result
@@ -36,10 +37,10 @@ def run_export(
     exported = export(stored, to, convention, table=output is not None and output.suffix.lower() == ".csv")
     warning = () if stored.accepted else (f"Warning: {stored.folder} was rejected; do not use this arm for work.",)
     for note in (*warning, *exported.notes):
-        print(note, file=sys.stderr)
+        print(printable(note), file=sys.stderr)
     if output is not None:
         write_atomically(output, exported.content)
-        print(f"Wrote {output}", file=sys.stderr)
+        print(printable(f"Wrote {output}"), file=sys.stderr)
     else:
         _print(exported.content)
     return 0

@@ -62,7 +62,9 @@ def _defect(error: Exception) -> str:
 
 def _say(error: BoresightError) -> None:
     """Prints an error: one line, or a list of all that is wrong."""
-    problems = getattr(error, "problems", (str(error),))
+    from boresight.files.problems import printable
+
+    problems = [printable(problem) for problem in getattr(error, "problems", (str(error),))]
     if len(problems) == 1:
         print(f"Error: {problems[0]}", file=sys.stderr)
         return

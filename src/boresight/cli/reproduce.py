@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
@@ -31,7 +30,7 @@ def run_reproduce(output: Path, *, quick: bool, seeds: int | None, seed: int, wo
     _check(seeds, seed, workers)
     check_writable(output)
     count = seeds or (QUICK_SEEDS if quick else SEEDS)
-    errors = Console(stderr=True)
+    errors = PipedConsole(stderr=True)
     told_of_compiling(linearise_rows, evolves=CPU)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("seeds"))
     with Progress(

@@ -56,7 +56,7 @@ def run_study(
     file = folder / RESULTS
     if not summary:
         _make_folder(folder)
-    errors = Console(stderr=True)
+    errors = PipedConsole(stderr=True)
     for other in merge:
         with Store.open(file) as store:
             added = store.absorb(other / RESULTS if other.is_dir() else other)

@@ -20,7 +20,7 @@ from boresight.files.observations import Observations, read_observations
 from boresight.files.patterns import Matcher
 from boresight.files.plausible_readings import readings_fault
 from boresight.files.plausible_units import check_arm
-from boresight.files.problems import Problems, listed, shown
+from boresight.files.problems import Problems, listed, printable, shown
 from boresight.files.schemas import DEFAULT, CampaignEntry, DataEntry, PointEntry
 from boresight.files.sessions import ONLY, in_sessions, sessions_of, with_sessions
 from boresight.files.short_lengths import without_short_lengths
@@ -81,7 +81,7 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
         }
         problems.raise_if_any()
     return Campaign(
-        name=document.path.resolve().parent.name or cell.arm.name,
+        name=printable(document.path.resolve().parent.name) or cell.arm.name,
         cell=cell,
         readings=readings.get("observations"),
         validation=readings.get("validation"),

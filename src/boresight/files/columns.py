@@ -192,12 +192,12 @@ def _check_names(
     optional = (*KEYS, *optional)
     other_names = (OTHER_NAMES.get(value, value) for value in known_values)
     known = dict.fromkeys((*joints, *known_values, *other_names, *optional))
-    counts = Counter(header)
+    counts, first = Counter(header), {name: column for column, name in reversed([*enumerate(header, start=1)])}
     unknown = [name for name in dict.fromkeys(header) if name and name not in known]
     for column, name in enumerate(header, start=1):
         if not name:
             problems.add(f"{place}column {column} has no name; is there a comma too many?")
-        elif counts[name] > 1 and name in known and column == header.index(name) + 1:
+        elif counts[name] > 1 and name in known and column == first[name]:
             problems.add(f"{place}there are several columns {shown(name)}; expected one")
     columns = listed(map(shown, header))
     if not unknown and values and not set(values) & set(header) and set(joints) <= set(header):

@@ -80,6 +80,10 @@ def read_document(path: Path | str, name: str | None = None, named_by: str = "")
         line = mark.line + 1 if mark else 1
         said = ", ".join(part for part in (error.context, error.problem) if part)
         raise InputError(printable(f"{name}, line {line}: not valid YAML: {said}")) from None
+    except OverflowError:  # of ruamel's scanner
+        raise InputError(
+            printable(f"{name}: not valid YAML: an escape such as \\UFFFFFFFF names no character")
+        ) from None
     except (YAMLError, ValueError, AttributeError) as error:  # the last two escape from ruamel's scanner
         said = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise InputError(printable(f"{name}: not valid YAML: {said}")) from None

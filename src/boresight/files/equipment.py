@@ -25,6 +25,9 @@ from boresight.sensing import (
 from boresight.sensing.aims import targets_of
 from boresight.units import Units
 
+MOST_AIMS = 20_000
+"""Ways in which rows can be taken: each sensor, on each marker, at each target."""
+
 _EXAMPLES = {
     Plane: "targets: {deck: {type: plane, normal: [0, 0, 1], offset: -0.15}}",
     Point: "targets: {anchor: {type: point, position: [1, 0, 0]}}",
@@ -76,6 +79,13 @@ def read_aims(
     problems: Problems,
 ) -> tuple[Aim, ...]:
     """Returns every sensor on each of its markers at each target of its kind."""
+    most = len(sensors) * len(mounts) * max(len(targets), 1)
+    if most > MOST_AIMS:
+        problems.add(
+            f"{document.name}: {len(sensors)} sensors, {len(mounts)} markers and {len(targets)} targets combine "
+            f"in {most:,} ways; expected at most {MOST_AIMS:,}: leave out what no row uses"
+        )
+        return ()
     aims = []
     for name, sensor in sensors.items():
         at = ("sensors", name) if entry.sensors is not None else ("sensor",)

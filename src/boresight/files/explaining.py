@@ -26,6 +26,7 @@ _EXPECTED = {
     "greater_than_equal": "a number of at least {ge:g}",
     "less_than_equal": "a number of at most {le:g}",
     "too_short": "a list of at least {min_length}",
+    "too_long": "a list of at most {max_length}",
     "expected": "{what}",
 }
 """What was expected, by pydantic's type of error; the braces are filled from its context."""

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
 
-from boresight.files.sheets import Row, Sheet
+from boresight.files.sheets import Row, Sheet, with_few_columns
 from boresight.files.signatures import LENGTH
 from boresight.files.signatures import is_parquet as begins_as_parquet
 from boresight.files.sources import OpenSource
@@ -37,7 +37,7 @@ def parquet_sheet(source: OpenSource, *, limit_mib: int) -> Sheet:
         source: the file.
         limit_mib: how much it may come to, unpacked or as CSV.
     """
-    return Sheet(source.name, _rows(source, limit_mib))
+    return Sheet(source.name, with_few_columns(_rows(source, limit_mib), source.name))
 
 
 def _rows(source: OpenSource, limit_mib: int) -> Iterator[Row]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from pathlib import Path
 
@@ -11,6 +10,7 @@ from boresight.errors import InputError
 from boresight.files.documents import Document, read_document
 from boresight.files.equipment import frame_of
 from boresight.files.explaining import validated
+from boresight.files.names import comment_lines, yaml_quoted
 from boresight.files.problems import Problems, shown
 from boresight.files.schemas import JointEntry, RobotEntry, UnitsEntry
 from boresight.files.urdf import SUFFIXES, read_urdf
@@ -74,9 +74,9 @@ def dump_robot(arm: Arm, header_comment: str = "") -> str:
         header_comment: lines to put above it.
     """
     numbers = ("theta", "d", "a", "alpha", "beta")
-    lines = [f"# {line}".rstrip() for line in header_comment.splitlines()]
+    lines = [f"# {line}".rstrip() for line in comment_lines(header_comment)]
     lines += [
-        f"name: {_quoted(arm.name)}",
+        f"name: {yaml_quoted(arm.name)}",
         "units: {length: m, angle: rad}",
         f"convention: {arm.convention}",
         *_place("root", arm.root),
@@ -87,9 +87,9 @@ def dump_robot(arm: Arm, header_comment: str = "") -> str:
         links = ", ".join(f"{number}: {float(getattr(joint, number))!r}" for number in numbers)
         low, high = map(float, joint.limits)
         limits = "none" if math.isinf(low) else f"[{low!r}, {high!r}]"
-        follows = f", follows: {_quoted(joint.follows)}, ratio: {float(joint.ratio)!r}" if joint.follows else ""
+        follows = f", follows: {yaml_quoted(joint.follows)}, ratio: {float(joint.ratio)!r}" if joint.follows else ""
         further = follows + _further(joint)
-        lines.append(f"  - {{name: {_quoted(joint.name)}, type: {joint.type}, {links}, limits: {limits}{further}}}")
+        lines.append(f"  - {{name: {yaml_quoted(joint.name)}, type: {joint.type}, {links}, limits: {limits}{further}}}")
     return "\n".join([*lines, *_place("tip", arm.tip)]) + "\n"
 
 
@@ -104,11 +104,6 @@ def _further(joint: Joint) -> str:
     waves = "".join(f", {wave}: {float(h)!r}" for wave, h in zip(HARMONICS, joint.harmonics, strict=False) if h)
     sag = ", ".join(f"{link}: {float(turn)!r}" for link, turn in joint.sag if turn)
     return waves + (f", sag: {{{sag}}}" if sag else "")
-
-
-def _quoted(name: str) -> str:
-    # YAML 1.2 holds JSON: a quoted name is itself, whatever it looks like.
-    return json.dumps(name, ensure_ascii=False)
 
 
 def _joint(entry: JointEntry, units: Units, robot: RobotEntry) -> Joint:

@@ -139,6 +139,9 @@ LARGEST = 1e9
 SMALLEST = 1e-12
 """The same for what is above 0."""
 
+MOST_JOINTS = 64
+"""Arms have six or seven, snakes some dozens; what follows grows with the cube of their number."""
+
 Number = Annotated[float, Strict(), AllowInfNan(False), Field(ge=-LARGEST, le=LARGEST)]
 Positive = Annotated[Number, Field(gt=0), AfterValidator(_not_minute)]
 Name = Annotated[str, AfterValidator(_checked_name)]
@@ -235,7 +238,9 @@ class RobotEntry(Entry):
     convention: Convention = "standard-dh"
     root: PlaceEntry = PlaceEntry()
     gravity: Direction = None
-    joints: Annotated[list[JointEntry], Field(min_length=1)] = Field(description="a list of one joint or more")
+    joints: Annotated[list[JointEntry], Field(min_length=1, max_length=MOST_JOINTS)] = Field(
+        description="a list of one joint or more"
+    )
     tip: PlaceEntry = PlaceEntry()
 
     @model_validator(mode="after")

@@ -14,6 +14,9 @@ from boresight.files.problems import printable
 from boresight.files.separators import SEPARATORS, separator_of, with_decimal_points, without_empty_ends
 from boresight.files.sources import Source
 
+MOST_COLUMNS, LONGEST_LINE = 10_000, 1_000_000
+"""Cells and characters of a row; what is read of one grows with them."""
+
 Row = tuple[int, list[str]]
 """A row's line in its file, counted from 1, and its cells."""
 
@@ -62,7 +65,7 @@ def csv_text(rows: Iterable[Row]) -> str:
 
 def _csv_rows(file: BinaryIO, name: str, notes: list[str]) -> Iterator[Row]:
     text = io.TextIOWrapper(file, encoding="utf-8-sig", newline=None)
-    lines = (line.partition("#")[0] for line in text)
+    lines = (line.partition("#")[0] for line in _bounded(text, name))
     reader = None
     try:
         head = [*_to_the_first(lines)]
@@ -72,7 +75,8 @@ def _csv_rows(file: BinaryIO, name: str, notes: list[str]) -> Iterator[Row]:
         reader = csv.reader(chain(head, lines), delimiter=separator, strict=True)
         rows = ((reader.line_num, cells) for cells in reader)
         filled = ((line, cells) for line, cells in rows if len(cells) > 1 or (cells and cells[0].strip()))
-        pointed = filled if separator == "," else with_decimal_points(filled, name, notes)
+        few = with_few_columns(filled, name)
+        pointed = few if separator == "," else with_decimal_points(few, name, notes)
         yield from without_empty_ends(pointed, notes)
     except UnicodeDecodeError:
         raise InputError(f"{name}: the file is not UTF-8 text; save it as CSV in UTF-8") from None
@@ -82,6 +86,24 @@ def _csv_rows(file: BinaryIO, name: str, notes: list[str]) -> Iterator[Row]:
         where = f"{name}, line {reader.line_num if reader else 1}: "
         raise InputError(printable(f"{where}not valid CSV: {error}; is a quotation mark left open?")) from None
     text.detach()  # or the file, which its owner looks at once more, would be closed with it
+
+
+def with_few_columns(rows: Iterable[Row], name: str) -> Iterator[Row]:
+    """Yields rows as long as they have no more cells than any table of measurements has."""
+    for line, cells in rows:
+        if len(cells) > MOST_COLUMNS:
+            raise InputError(f"{name}, line {line}: {len(cells):,} columns; expected at most {MOST_COLUMNS:,}")
+        yield line, cells
+
+
+def _bounded(text: io.TextIOWrapper, name: str) -> Iterator[str]:
+    """Yields a text's lines as long as each could be a row."""
+    for number, line in enumerate(iter(lambda: text.readline(LONGEST_LINE), ""), start=1):
+        if len(line) == LONGEST_LINE:
+            raise InputError(
+                f"{name}, line {number}: more than {LONGEST_LINE:,} characters; expected rows of numbers, a line each"
+            )
+        yield line
 
 
 def _to_the_first(lines: Iterator[str]) -> Iterator[str]:

@@ -17,7 +17,7 @@ from boresight.files.composing import KeyPath
 from boresight.files.documents import Document, read_document
 from boresight.files.explaining import validated
 from boresight.files.patterns import Matcher
-from boresight.files.problems import Problems, listed, shown
+from boresight.files.problems import Problems, listed, printable, shown
 from boresight.files.schemas import CampaignEntry, RobotChoice
 from boresight.files.study_schemas import StudyEntry
 from boresight.sensing import Cell
@@ -32,6 +32,9 @@ STUDIED = ("laser_ranger", "position")
 
 MOST_POINTS = 10_000
 """More than anyone looks at."""
+
+MOST_RUNS = 2_000_000
+"""Campaigns of all points together: hours of many cores, and hundreds of megabytes to keep their outcomes."""
 
 _ROWS = 35
 
@@ -57,12 +60,18 @@ def load_study(path: Path | str, *, seeds: int | None = None) -> Study:
     count = math.prod((len(benches), *(len(values) for values in axes.values())))
     if count > MOST_POINTS:
         raise InputError(f"{document.at(('vary',))}the grid has {count:,} points; expected at most {MOST_POINTS:,}")
+    runs = count * (seeds or entry.seeds)
+    if runs > MOST_RUNS:
+        raise InputError(
+            f"{document.at(('seeds',))}{count:,} points with {seeds or entry.seeds:,} seeds each are {runs:,} "
+            f"campaigns; expected at most {MOST_RUNS:,}"
+        )
     try:
         points = grid(benches, axes, settings)
     except InputError as error:
         raise InputError(f"{document.at(())}{error}") from None
     varied = [axis for axis in AXES if len({point.label(axis) for point in points}) > 1]
-    return Study(entry.name or document.path.stem, points, tuple(varied), seeds or entry.seeds)
+    return Study(entry.name or printable(document.path.stem), points, tuple(varied), seeds or entry.seeds)
 
 
 def _benches(document: Document, entry: StudyEntry, problems: Problems) -> tuple[dict[str, Bench], Mapping[str, Any]]:

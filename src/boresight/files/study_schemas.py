@@ -68,7 +68,7 @@ def _title(name: str) -> str:
 
 Rows = Annotated[int, Strict(), Field(ge=1, le=MOST_ROWS)]
 Repeats = Annotated[int, Strict(), Field(ge=1, le=10**9)]
-Size = Annotated[Number, Field(ge=0, le=LARGEST_SIZE)]
+Size = Annotated[Positive, Field(le=LARGEST_SIZE)]
 GrossShare = Annotated[Number, Field(ge=0, le=0.9)]
 Members = Annotated[int, Strict(), Field(ge=5, le=MOST_MEMBERS)]
 Generations = Annotated[int, Strict(), Field(ge=1, le=MOST_GENERATIONS)]

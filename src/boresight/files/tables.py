@@ -15,7 +15,7 @@ from boresight.errors import InputError
 from boresight.files.aiming import AimsByName
 from boresight.files.columns import KEYS, Columns, read_columns
 from boresight.files.numbers import number_of
-from boresight.files.problems import Problems, shown
+from boresight.files.problems import Problems, printable, shown
 from boresight.files.schemas import LARGEST
 from boresight.files.sheets import Sheet
 from boresight.sensing import Cell
@@ -94,7 +94,8 @@ def read_table(sheet: Sheet, cell: Cell, units: Units, problems: Problems, *, ne
             empty.setdefault(line, []).extend(aims.empty(given))
         target.append(aim)
         if session_at is not None:
-            sessions.append(sys.intern(cells[session_at].strip()))
+            session = cells[session_at].strip()
+            sessions.append(sys.intern(session if session.isprintable() else printable(session)))
         given_numbers = numeric(cells)
         try:
             together = "".join(given_numbers)

@@ -16,6 +16,8 @@ from boresight.arm.common_normals import link_transform, standard_dh
 from boresight.arm.screws import screws_of
 from boresight.arm.serial import SerialChain, chain_of, corrected_chain
 from boresight.errors import InputError
+from boresight.files.names import comment_lines, yaml_key
+from boresight.files.problems import printable
 from boresight.geometry import Frame, inverse, rotation_angle
 
 LINKS = ("shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3")
@@ -105,16 +107,16 @@ def kinematics_yaml(blocks: Mapping[str, Frame], header_comment: str, notes: Seq
     """
     block = []
     for name, origin in blocks.items():
-        block.append(f"  {name}:")
+        block.append(f"  {yaml_key(name)}:")
         numbers = zip(("x", "y", "z", "roll", "pitch", "yaw"), (*origin.xyz, *origin.rpy), strict=True)
         block += [f"    {key}: {value + 0.0!r}" for key, value in numbers]
     digits = int.from_bytes(hashlib.sha256("\n".join(block).encode()).digest()[:8], "big")
     said = [
-        *header_comment.splitlines(),
+        *comment_lines(header_comment),
         "Each block is a joint's frame in the one before: metres, and radians about fixed axes, R = Rz(yaw) Ry(pitch)",
         "Rx(roll), as the description reads them. The hash is of these numbers; a driver that compares it with the",
         "controller's own will say that they differ.",
-        *notes,
+        *map(printable, notes),
     ]
     text = [*(f"# {line}" for line in said), "kinematics:", *block, f"  hash: calib_{digits}"]
     return "\n".join(text) + "\n"
@@ -134,7 +136,7 @@ def calibration_conf(chain: UniversalChain, header_comment: str) -> str:
             f"{chain.nominal.name}: D-H without beta cannot hold this arm: its poses would be off by {error:.2g} (m or "
             f"rad). {_why(chain)} Export to ur-kinematics or urdf instead"
         )
-    lines = [f"# {line}" for line in (*header_comment.splitlines(), *_turned_base(chain))]
+    lines = [f"# {line}" for line in (*comment_lines(header_comment), *_turned_base(chain))]
     lines.append("# Added to this nominal table (theta, d, a, alpha; rad and m):")
     lines += [f"#   {j.name}: {j.theta!r}, {j.d!r}, {j.a!r}, {j.alpha!r}" for j in before.joints]
     if any(abs(b.d - a.d) > _FAR for a, b in zip(before.joints, after.joints, strict=True)):

@@ -12,15 +12,12 @@ from boresight.calibration.campaign import RobotFile
 from boresight.errors import InputError, did_you_mean
 from boresight.files.elements import Element, read_elements
 from boresight.files.problems import Problems, printable, shown
-from boresight.files.schemas import LARGEST, name_fault
+from boresight.files.schemas import LARGEST, MOST_JOINTS, name_fault
 from boresight.files.sources import Source, read_source
 from boresight.files.tree import Tree, nearest, tree_of
 from boresight.geometry import Frame
 
 LIMIT_MIB = 16
-MOST_MOVING = 100
-"""Joints between base and tip; arms have six or seven, snakes some dozens."""
-
 SUFFIXES = (".urdf", ".xacro", ".xml")
 """How the names of descriptions end; anything else is read as a robot.yaml."""
 
@@ -61,8 +58,8 @@ def robot_file_of(source: Source, base: str | None = None, tip: str | None = Non
         )
     tree = tree_of(root, source.name)
     base, tip, joints = tree.chain(base, tip)
-    if sum(element.attributes.get("type") != "fixed" for element in joints) > MOST_MOVING:
-        raise InputError(printable(f"{source.name}: more than {MOST_MOVING} joints move between {base} and {tip}"))
+    if sum(element.attributes.get("type") != "fixed" for element in joints) > MOST_JOINTS:
+        raise InputError(printable(f"{source.name}: more than {MOST_JOINTS} joints move between {base} and {tip}"))
     problems = Problems()
     read = [_joint(element, tree, source.name, problems) for element in joints]
     problems.raise_if_any()
@@ -72,7 +69,9 @@ def robot_file_of(source: Source, base: str | None = None, tip: str | None = Non
             printable(f"{source.name}: no joint from {base} to {tip} moves; expected an arm between base and tip")
         )
     title = root.attributes.get("name", "").strip()
-    chain = SerialChain(title if title.isprintable() and title else Path(source.name).stem, base, tip, joints_read)
+    chain = SerialChain(
+        title if title.isprintable() and title else printable(Path(source.name).stem), base, tip, joints_read
+    )
     return RobotFile(source.name, source.content, _following(chain, tree, source.name))
 
 

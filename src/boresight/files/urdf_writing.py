@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from xml.sax.saxutils import escape, quoteattr
+from xml.sax.saxutils import quoteattr
 
 from boresight.arm.serial import SerialChain, SerialJoint
+from boresight.files.names import xml_comment
 
 
 def dump_urdf(chain: SerialChain, header_comment: str = "") -> str:
@@ -18,7 +19,7 @@ def dump_urdf(chain: SerialChain, header_comment: str = "") -> str:
     links = [chain.base, *(f"{joint.name}_link" for joint in chain.joints[:-1]), chain.tip]
     lines = ['<?xml version="1.0"?>']
     if header_comment:
-        lines.append(f"<!-- {_comment(header_comment)} -->")
+        lines.append(f"<!-- {xml_comment(header_comment)} -->")
     lines.append(f"<robot name={quoteattr(chain.name)}>")
     lines += [f"  <link name={quoteattr(link)}/>" for link in links]
     for joint, parent, child in zip(chain.joints, links, links[1:], strict=False):
@@ -48,8 +49,3 @@ def _joint(joint: SerialJoint, parent: str, child: str) -> list[str]:
 
 def _numbers(values: tuple[float, ...]) -> str:
     return " ".join(repr(float(value) + 0.0) for value in values)
-
-
-def _comment(text: str) -> str:
-    # XML's comments end at two hyphens.
-    return escape(text).replace("--", "- -")

@@ -12,6 +12,7 @@ from boresight.arm.conventions import Convention
 from boresight.arm.screws import Screws, screws_of
 from boresight.arm.serial import chain_of
 from boresight.errors import InputError
+from boresight.files.names import comment_lines, yaml_key
 from boresight.files.robots import dump_robot
 from boresight.files.universal_robots import (
     calibration_conf,
@@ -125,7 +126,7 @@ def _pal(stored: StoredResult) -> str:
             "calibrate with robot: {urdf: ...}, or export to urdf"
         )
     lines = [
-        *(f"# {line}" for line in _comment(stored).splitlines()),
+        *(f"# {line}" for line in comment_lines(_comment(stored))),
         "# Added to the origins of the URDF that was calibrated: metres, and radians of roll, pitch and yaw.",
         "robot_state_publisher:",
         "  geometric_calibration:",
@@ -133,8 +134,9 @@ def _pal(stored: StoredResult) -> str:
     for joint in stored.origins:
         was, now = ([*joint[key]["xyz"], *joint[key]["rpy"]] for key in ("nominal", "identified"))
         if joint["type"] != "fixed" or was != now:
-            deltas = zip(_DELTAS, was, now, strict=True)
-            lines += [f"    {joint['joint']}_{delta}: {float(b) - float(a) + 0.0!r}" for delta, a, b in deltas]
+            keys = (yaml_key(f"{joint['joint']}_{part}") for part in _DELTAS)
+            changes = (float(b) - float(a) + 0.0 for a, b in zip(was, now, strict=True))
+            lines += [f"    {key}: {change!r}" for key, change in zip(keys, changes, strict=True)]
     return "\n".join(lines) + "\n"
 
 

@@ -6,6 +6,8 @@ import csv
 import io
 
 from boresight.arm import Arm
+from boresight.files.names import csv_word
+from boresight.files.problems import printable
 from boresight.geometry import Frame
 
 
@@ -18,9 +20,9 @@ def link_table(arm: Arm, beside: tuple[str, ...] = ()) -> tuple[str, tuple[str, 
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["joint", "type", "theta_rad", "d_m", "a_m", "alpha_rad", "beta_rad"])
     for joint in arm.joints:
-        writer.writerow([joint.name, joint.type, *(repr(value) for value in joint.numbers.values())])
+        writer.writerow([csv_word(joint.name), joint.type, *(repr(value) for value in joint.numbers.values())])
     notes = tuple(_beside_the_rows(arm))
-    return text.getvalue() + "".join(f"# {note}\n" for note in (*notes, *beside)), notes
+    return text.getvalue() + "".join(f"# {printable(note)}\n" for note in (*notes, *beside)), notes
 
 
 def _beside_the_rows(arm: Arm) -> list[str]:

@@ -15,6 +15,7 @@ from rich.markup import escape
 from rich.measure import Measurement
 from rich.table import Table
 
+from boresight.files.names import csv_word
 from boresight.files.writing import write_atomically
 from boresight.studies import AXES, Outcome, Summary
 from boresight.studies.axes import TITLES, shown
@@ -134,7 +135,8 @@ def runs_csv(summary: Summary) -> str:
     names = [field.name for field in fields(Outcome)]
     writer.writerow([*AXES, "seed", *names])
     for each in summary.points:
-        settings = [each.point.label(axis) for axis in AXES]
+        labels = (each.point.label(axis) for axis in AXES)
+        settings = [csv_word(label) if isinstance(label, str) else label for label in labels]
         for seed, outcome in each.outcomes.items():
             writer.writerow([*settings, seed, *(_cell(value) for value in asdict(outcome).values())])
     return text.getvalue()

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from boresight.calibration.result import Result
+from boresight.files.names import csv_word
 from boresight.sensing import Cell, Readings, Sensor
 
 _BLOCK = 16_384
@@ -32,7 +33,7 @@ def residuals_csv(result: Result) -> str:
     if len(cell.mounts) > 1:
         columns["marker"] = _of_aims([aim.mount for aim in cell.aims], readings)
     if readings.session is not None:
-        columns["session"] = readings.session
+        columns["session"] = np.array([csv_word(str(name)) for name in readings.session], dtype=object)
     for when in ("before", "after"):
         for channel, unit in units.items():
             columns[f"{when}_{channel}_{unit}"] = _errors_of_channel(channel, cell, readings, result.errors[when])
@@ -42,7 +43,7 @@ def residuals_csv(result: Result) -> str:
 
 def _of_aims(words: Sequence[str], readings: Readings) -> np.ndarray:
     """Returns each row's word, given a word an aim."""
-    return np.array(words, dtype=object)[readings.target]
+    return np.array(list(map(csv_word, words)), dtype=object)[readings.target]
 
 
 def _errors_of_channel(
@@ -87,7 +88,9 @@ def pose_uncertainty_csv(result: Result) -> str:
         relative.pose.position_95,
         relative.pose.orientation_95,
     )
-    return _csv([*result.cell.arm.joint_names, *header], _rows_of((*found.joints.T, *map(_written, sizes))))
+    return _csv(
+        [*map(csv_word, result.cell.arm.joint_names), *header], _rows_of((*found.joints.T, *map(_written, sizes)))
+    )
 
 
 def _written(radius: Float[np.ndarray, "rows"]) -> np.ndarray:

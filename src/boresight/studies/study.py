@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor
 from dataclasses import dataclass
@@ -141,7 +142,8 @@ class _Tasks:
 
     def took(self, seconds: Sequence[float]) -> None:
         """Lets later tasks be as long as they should be, by what the last one took a run."""
-        each = max(sum(seconds) / len(seconds), 1e-3)
+        known = [each for each in seconds if math.isfinite(each)]  # a run that failed took none
+        each = max(sum(known) / max(len(known), 1), 1e-3)
         self._size = max(1, min(MOST_RUNS, int(TASK_S / each)))
 
 
