@@ -149,9 +149,13 @@ def test_what_a_format_cannot_hold_is_told(boresight, result):
     [
         (None, None, "holds no result.json; expected the folder that boresight calibrate wrote"),
         ("result.json", "{", "result.json: not valid JSON"),
-        ("result.json", "[]", "result.json: schema None; expected boresight-result/1"),
+        ("result.json", "[]", "result.json: schema nothing; expected boresight-result/1"),
         ("result.json", '{"schema": "boresight-result/9"}', "schema 'boresight-result/9'; expected boresight-result/1"),
-        ("result.json", '{"schema": "boresight-result/1"}', "robot-calibrated.yaml: there is no such file"),
+        (
+            "result.json",
+            '{"schema": "boresight-result/1"}',
+            "result.json: not a result of this version of Boresight: name is missing",
+        ),
     ],
 )
 def test_a_folder_that_is_no_result_is_told(boresight, tmp_path, name, content, said):

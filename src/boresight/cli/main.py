@@ -34,6 +34,9 @@ def main() -> None:
     except KeyboardInterrupt:
         print(_interrupted(), file=sys.stderr)
         code = INTERRUPTED
+    except OSError as error:  # of a folder that one may not enter, or a name that no file can have
+        _say(BoresightError(f"{error.filename or 'a file'}: {error.strerror or error}"))
+        code = 1
     except Exception as error:  # a defect, of which the user has no use for the traceback
         if os.environ.get(TRACEBACK):
             raise

@@ -126,7 +126,9 @@ def _is_numbers(value: Any, count: int) -> bool:
 
 
 def _is_finite(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        return False
+    return math.isfinite(value) if isinstance(value, float) else abs(value) < 10**300  # more is no float
 
 
 def _is_number(value: Any) -> bool:

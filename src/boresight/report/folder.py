@@ -97,14 +97,14 @@ def _urdf(result: Result) -> dict[str, bytes]:
 def _holds_accepted(folder: Path) -> bool:
     try:
         return bool(json.loads((folder / RESULT_FILE).read_text(encoding="utf-8"))["verdict"]["accepted"])
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return False
 
 
 def _schema(folder: Path) -> str | None:
     try:
         schema = json.loads((folder / RESULT_FILE).read_text(encoding="utf-8")).get("schema")
-    except (OSError, ValueError, AttributeError):
+    except (OSError, ValueError, AttributeError, RecursionError):
         return None
     return schema if isinstance(schema, str) and schema.split("/")[0] == SCHEMA.split("/")[0] else None
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,9 +12,9 @@ from boresight.errors import InputError, did_you_mean
 from boresight.files import load_robot
 from boresight.files.problems import printable
 from boresight.files.sources import read_source
-from boresight.report.document import SCHEMA
 from boresight.report.folder import RESULT_FILE, ROBOT_FILE, URDF_FILE, digest_of
 from boresight.report.frames_beside import EstimatedFrame, estimated_frames
+from boresight.report.stored_document import checked_document
 
 LIMIT_MIB = 64
 
@@ -76,8 +75,11 @@ def load_result(folder: Path) -> StoredResult:
             origins=() if described is None else tuple(described["origins"]),
             frames=estimated_frames(document),
         )
-    except (KeyError, TypeError, AttributeError) as error:
-        raise InputError(f"{folder / RESULT_FILE}: not a result of this version of Boresight ({error})") from None
+    except (KeyError, TypeError) as error:  # of a parameter that is not there, or has no nominal value
+        said = (
+            f"{folder / RESULT_FILE}: it does not belong to robot-calibrated.yaml beside it ({error}); calibrate again"
+        )
+        raise InputError(printable(said)) from None
 
 
 def _near(folder: Path) -> str:
@@ -91,14 +93,7 @@ def _document(folder: Path) -> dict[str, Any]:
     source = read_source(
         folder / RESULT_FILE, str(folder / RESULT_FILE), kind="a result", limit_mib=LIMIT_MIB, mend="is it one?"
     )
-    try:
-        document = json.loads(source.content)
-    except ValueError as error:
-        raise InputError(printable(f"{source.name}: not valid JSON: {error}")) from None
-    schema = document.get("schema") if isinstance(document, dict) else None
-    if schema != SCHEMA:
-        raise InputError(printable(f"{source.name}: schema {schema!r}; expected {SCHEMA}"))
-    return document
+    return checked_document(source)
 
 
 def _check_files(folder: Path, document: Mapping[str, Any]) -> None:
