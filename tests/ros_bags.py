@@ -47,6 +47,37 @@ def point(stamp, xyz):
     )
 
 
+def quaternion(w, x, y, z):
+    return TYPES["geometry_msgs/msg/Quaternion"](x=float(x), y=float(y), z=float(z), w=float(w))
+
+
+def _pose(xyz, turned):
+    x, y, z = map(float, xyz)
+    at = TYPES["geometry_msgs/msg/Point"](x=x, y=y, z=z)
+    return TYPES["geometry_msgs/msg/Pose"](position=at, orientation=quaternion(*turned))
+
+
+def pose(stamp, xyz, turned):
+    return TYPES["geometry_msgs/msg/PoseStamped"](header=header(stamp), pose=_pose(xyz, turned))
+
+
+def pose_with_covariance(stamp, xyz, turned):
+    both = TYPES["geometry_msgs/msg/PoseWithCovariance"](pose=_pose(xyz, turned), covariance=np.zeros(36))
+    return TYPES["geometry_msgs/msg/PoseWithCovarianceStamped"](header=header(stamp), pose=both)
+
+
+def transform(stamp, xyz, turned, frame="tool"):
+    x, y, z = map(float, xyz)
+    both = TYPES["geometry_msgs/msg/Transform"](
+        translation=TYPES["geometry_msgs/msg/Vector3"](x=x, y=y, z=z), rotation=quaternion(*turned)
+    )
+    return TYPES["geometry_msgs/msg/TransformStamped"](header=header(stamp), child_frame_id=frame, transform=both)
+
+
+def transforms(*each):
+    return TYPES["tf2_msgs/msg/TFMessage"](transforms=list(each))
+
+
 def number(value):
     return TYPES["std_msgs/msg/Float64"](data=float(value))
 

@@ -65,6 +65,7 @@ def import_(
     joints: Annotated[list[str] | None, Parameter(negative="")] = None,
     range: str | None = None,
     position: str | None = None,
+    pose: str | None = None,
     target: str | None = None,
     targets: str | None = None,
     time_offset: Real = 0.0,
@@ -91,7 +92,10 @@ def import_(
         campaign: campaign.yaml whose robot's joints become the columns, in place of --robot.
         joints: topic of sensor_msgs/JointState; may be given several times. The only one by default.
         range: topic of sensor_msgs/Range, or of std_msgs/Float64 or Float32 in metres. The only one by default.
-        position: topic of geometry_msgs/PointStamped, the positions of a tracker, in place of ranges.
+        position: topic of geometry_msgs/PointStamped, the positions of a tracker, in place of ranges; or of poses,
+            whose orientation is left out.
+        pose: topic of geometry_msgs/PoseStamped, PoseWithCovarianceStamped or TransformStamped, the poses of a tracker;
+            or a frame of a tf topic, /tf:FRAME.
         target: what the ranger pointed at, for the column target.
         targets: topic of std_msgs/String that names the target from then on; one called target by default.
         time_offset: seconds to add to the readings' time stamps.
@@ -108,7 +112,7 @@ def import_(
     from boresight.recordings import Rules
 
     rules = Rules(still_speed, still_time, settle)
-    choice = Choice(tuple(joints or ()), range, position, target, targets, time_offset, rules)
+    choice = Choice(tuple(joints or ()), range, position, pose, target, targets, time_offset, rules)
     return run_import(
         source,
         output,

@@ -125,6 +125,7 @@ def _bag(path: Path, choice: Choice, arm: ArmOf) -> tuple[dict[str, object], str
 def _summary(recorded: Recorded) -> dict[str, object]:
     """Returns what was found in a bag, as plain values."""
     rows = recorded.rows
+    std = rows.std[:, recorded.lengths]
     return {
         "source": recorded.bag.name,
         "rows": len(rows),
@@ -138,8 +139,9 @@ def _summary(recorded: Recorded) -> dict[str, object]:
         "phases": len(rows) + len(rows.skipped),
         "without_a_row": [{"from": s.start, "to": s.end, "reason": s.reason} for s in rows.skipped],
         "repeats": {"median": float(np.median(rows.repeats)), "min": int(rows.repeats.min())},
-        "scatter_m": rows.scatter.tolist(),
-        "std_m": {"median": float(np.median(rows.std)), "max": float(rows.std.max())},
+        "scatter_m": rows.scatter[recorded.lengths].tolist(),
+        "std_m": {"median": float(np.median(std)), "max": float(std.max())},
+        **({} if recorded.angle_scatter is None else {"scatter_rad": recorded.angle_scatter}),
         "notes": list(remarks_of(recorded)),
         "warnings": list(recorded.bag.losses),
     }

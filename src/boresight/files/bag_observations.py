@@ -9,17 +9,19 @@ import numpy as np
 
 from boresight.errors import InputError
 from boresight.files.observations import Observations, observations_of
-from boresight.files.problems import printable
+from boresight.files.problems import listed, printable
 from boresight.files.recorded import Recorded, read_recorded, rows_csv
 from boresight.files.schemas import DataEntry
 from boresight.files.sheets import sheet_of
 from boresight.files.sources import Source
-from boresight.files.topics import Choice
+from boresight.files.topics import CHANNELS, Choice
 from boresight.recordings import Rules
-from boresight.sensing import Cell
+from boresight.sensing import Cell, Pose
 from boresight.units import Units, in_millimetres
 
-_KINDS = {"laser_ranger": "range", "position": "position"}
+_KINDS = {("range",): "range", ("distance",): "range"} | {CHANNELS[kind]: kind for kind in ("position", "pose")}
+"""What is read in a bag, by the columns of the sensor it is for."""
+
 _TOLD = 3
 _ALIKE = 1.2
 _LOUD = 3.0
@@ -38,13 +40,7 @@ def read_bag_observations(path: Path, *, cell: Cell, entry: DataEntry, named_by:
     Raises:
         InputError: it cannot be read, or not one row can be made of it.
     """
-    types = [sensor.type for sensor in cell.sensors.values()]
-    kind = _KINDS.get(types[0]) if len(types) == 1 and len(cell.mounts) == 1 else None
-    if kind is None:
-        raise InputError(
-            f"{named_by}a bag holds readings of one {' or '.join(_KINDS)} on one mount, not of {', '.join(types)}"
-            f"{' on several markers' if len(cell.mounts) > 1 else ''}; import it to a CSV file first"
-        )
+    kind = _kind(cell, named_by)
     try:
         recorded = read_recorded(path, entry.name, choice_of(entry), cell.arm.joint_names, kind)
     except InputError as error:
@@ -59,12 +55,37 @@ def read_bag_observations(path: Path, *, cell: Cell, entry: DataEntry, named_by:
     return replace(found, warnings=warnings, sha256=recorded.bag.sha256, notes=tuple(notes))
 
 
+def _kind(cell: Cell, named_by: str) -> str:
+    """Returns what is read in a bag for a cell.
+
+    Raises:
+        InputError: there are several sensors or markers, or the sensor reports nothing.
+    """
+    several = {key: list(each) for key, each in (("sensor", cell.sensors), ("marker", cell.mounts)) if len(each) > 1}
+    if several:
+        told = " and ".join(f"{len(names)} {key}s ({listed(names)})" for key, names in several.items())
+        raise InputError(
+            printable(
+                f"{named_by}a bag gives the rows of one sensor on one marker, and the campaign has {told}; make a CSV "
+                "file of each with `boresight import`, naming its topic, and join them into one with the names in a "
+                f"column {' and a column '.join(several)}"
+            )
+        )
+    (sensor,) = cell.sensors.values()
+    if sensor.columns not in _KINDS:
+        raise InputError(
+            f"{named_by}a bag holds no readings of a {sensor.type}; write the joints of each reading into a CSV file"
+        )
+    return _KINDS[sensor.columns]
+
+
 def choice_of(entry: DataEntry) -> Choice:
     """Returns what a campaign says of a bag."""
     return Choice(
         entry.joints,
         entry.range,
         entry.position,
+        entry.pose,
         entry.target,
         entry.targets,
         entry.time_offset,
@@ -88,8 +109,19 @@ def remarks_of(recorded: Recorded) -> tuple[str, ...]:
 
 
 def _scatter(recorded: Recorded, cell: Cell) -> list[str]:
-    """A warning where the readings scatter otherwise than the campaign says."""
-    seen, stated = float(np.median(recorded.rows.scatter)), next(iter(cell.sensors.values())).noise_std
+    """Warnings where the readings scatter otherwise than the campaign says."""
+    sensor = next(iter(cell.sensors.values()))
+    angle, warnings = recorded.angle_scatter, []
+    if angle and isinstance(sensor, Pose) and not 1.0 / _LOUD <= angle / sensor.noise_angle_std <= _LOUD:
+        warnings.append(
+            f"{recorded.bag.name}: one reading's orientation scatters by {angle:.3g} rad (median), where "
+            f"noise_angle_std says {sensor.noise_angle_std:.3g} rad; the rows have what was seen"
+        )
+    return [*_scatter_of_lengths(recorded, sensor.noise_std), *warnings]
+
+
+def _scatter_of_lengths(recorded: Recorded, stated: float) -> list[str]:
+    seen = float(np.median(recorded.rows.scatter[recorded.lengths]))
     if not recorded.scatters:
         return [
             f"{recorded.bag.name}: the readings of a phase do not differ, so the campaign's noise_std counts for them"

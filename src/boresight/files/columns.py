@@ -12,7 +12,7 @@ from boresight.sensing import Cell, Pose, Sensor
 from boresight.sensing.aims import targets_of
 from boresight.units import Quantity, Units
 
-OTHER_NAMES = {"range": "distance"}
+OTHER_NAMES = {"range": "distance", "distance": "range"}
 """A second name that a sensor's column may have."""
 
 STD_ANGLE = "std_angle"
@@ -22,6 +22,9 @@ KEYS = ("sensor", "marker", "target", "session")
 """Columns of names."""
 
 QUATERNION = ("qw", "qx", "qy", "qz")
+
+NEARLY_UNIT = 0.01
+"""A quaternion whose length is farther from 1 is not a rounded one."""
 
 IGNORED = ("time", "temperature", *QUATERNION)
 """Columns that may be there and do not enter the model."""
@@ -191,7 +194,8 @@ def _check_names(
     optional = ("std", *(f"std_{value}" for value in lengths), *((STD_ANGLE,) if has_pose else ()), "repeats", *IGNORED)
     optional = (*KEYS, *optional)
     other_names = (OTHER_NAMES.get(value, value) for value in known_values)
-    known = dict.fromkeys((*joints, *known_values, *other_names, *optional))
+    # A pose's uncertainty may stand beside its quaternion where only its position is used.
+    known = dict.fromkeys((*joints, *known_values, *other_names, *optional, STD_ANGLE))
     counts, first = Counter(header), {name: column for column, name in reversed([*enumerate(header, start=1)])}
     unknown = [name for name in dict.fromkeys(header) if name and name not in known]
     for column, name in enumerate(header, start=1):

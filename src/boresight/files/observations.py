@@ -10,7 +10,7 @@ from jaxtyping import Bool, Float, Int
 
 from boresight.calibration.campaign import SetAside
 from boresight.errors import InputError
-from boresight.files.columns import QUATERNION, Columns, known_columns
+from boresight.files.columns import NEARLY_UNIT, QUATERNION, Columns, known_columns
 from boresight.files.dialects import described, in_house_words
 from boresight.files.headers import with_known_names
 from boresight.files.parquet import is_parquet, parquet_sheet
@@ -28,9 +28,6 @@ from boresight.units import Units
 LIMIT_MIB = 512
 
 _ALONE = "no position of its block is left to which its distance could be told"
-
-_NEARLY_UNIT = 0.01
-"""A quaternion whose length is farther from 1 is not a rounded one."""
 
 
 @dataclass(frozen=True)
@@ -240,7 +237,7 @@ def _check_quaternions(
     table: Table, rows: Int[np.ndarray, "some"], columns: tuple[int, ...], name: str, problems: Problems
 ) -> None:
     lengths = np.linalg.norm(table.numbers[rows][:, list(columns)], axis=1)
-    for row in np.flatnonzero(np.abs(lengths - 1.0) > _NEARLY_UNIT):
+    for row in np.flatnonzero(np.abs(lengths - 1.0) > NEARLY_UNIT):
         problems.add(
             f"{name}, line {table.line[rows[row]]}: the quaternion {', '.join(QUATERNION)} has length "
             f"{lengths[row]:.6g}; expected 1: w first, then x, y and z"

@@ -11,10 +11,12 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
+from jaxtyping import Float
 
 from boresight.errors import InputError, did_you_mean
 from boresight.files.bags import Bag, read_bag
 from boresight.files.clocks import Clock, clock_of
+from boresight.files.columns import NEARLY_UNIT, QUATERNION, STD_ANGLE
 from boresight.files.problems import listed, printable, shown
 from boresight.files.schemas import LARGEST, SMALLEST
 from boresight.files.topics import CHANNELS, Choice, Topics, topics_of
@@ -51,10 +53,44 @@ class Recorded:
     remarks: tuple[str, ...]
 
     @property
+    def lengths(self) -> slice:
+        """Which channels are lengths; those of a quaternion follow them."""
+        return slice(0, len(self.channels) - len(QUATERNION) if QUATERNION[0] in self.channels else None)
+
+    @property
     def scatters(self) -> bool:
-        """Whether readings of a phase differ, or are rounded to steps, so that a standard deviation can be told."""
-        rows = self.rows
-        return bool((rows.std >= SMALLEST).all() and ((rows.scatter > 0.0).any() or (rows.std >= _FINEST).all()))
+        """Whether lengths of a phase differ, or are rounded to steps, so that a standard deviation can be told."""
+        std, scatter = self.rows.std[:, self.lengths], self.rows.scatter[self.lengths]
+        return bool((std >= SMALLEST).all() and ((scatter > 0.0).any() or (std >= _FINEST).all()))
+
+    @property
+    def angle_scatter(self) -> float | None:
+        """Standard deviation of one reading about each axis in the median phase [rad]; None where there is no pose."""
+        turns = self.rows.scatter[len(self.channels[self.lengths]) :]
+        return float(_by_axis(turns[None, :])[0]) if len(turns) else None
+
+    @property
+    def std_angle(self) -> Float[np.ndarray, " rows"] | None:
+        """Standard deviation of each row's orientation about each axis [rad]; None where nothing tells it."""
+        if not self.angle_scatter:
+            return None
+        angles = _by_axis(self.rows.std[:, len(self.channels[self.lengths]) :])
+        return angles if (angles >= SMALLEST).all() else None
+
+    @property
+    def columns(self) -> dict[str, list[str]]:
+        """Values and standard deviations of the rows as text, by column."""
+        values = self.rows.values.copy()
+        turns = values[:, len(self.channels[self.lengths]) :]
+        if turns.size:
+            turns /= np.linalg.norm(turns, axis=1, keepdims=True)
+        found = {name: [f"{value:.10g}" for value in values[:, k]] for k, name in enumerate(self.channels)}
+        lengths = self.channels[self.lengths]
+        for k, name in enumerate(lengths if self.scatters else ()):
+            found["std" if len(lengths) == 1 else f"std_{name}"] = [f"{value:.4g}" for value in self.rows.std[:, k]]
+        if self.std_angle is not None:
+            found[STD_ANGLE] = [f"{value:.4g}" for value in self.std_angle]
+        return found
 
 
 def read_recorded(
@@ -73,13 +109,13 @@ def read_recorded(
         name: what the user calls it.
         choice: which topics, and what counts as still.
         joint_names: the arm's joints; those of the bag, in its order, by default.
-        kind: `range` or `position`; whichever the bag holds by default.
+        kind: `range`, `position` or `pose`; whichever the bag holds by default.
         all_joints: whether every one of `joint_names` must be there, or those that are there are used.
 
     Raises:
         InputError: it cannot be read, a topic is missing or not to be told from others, or no row can be made.
     """
-    bag = read_bag(path, name)
+    bag = read_bag(path, name, transforms=choice.transforms)
     topics = topics_of(bag, choice, kind)
     clock = clock_of([bag.messages[topic] for topic in topics.joints], bag.messages[topics.readings], topics.readings)
     joints = _joint_signals(bag, topics.joints, clock)
@@ -116,16 +152,14 @@ def rows_csv(recorded: Recorded) -> str:
     rows, text = recorded.rows, io.StringIO()
     text.write(f"# {printable(Path(recorded.bag.name).name)}, from {began(recorded.start)} on\n")
     writer = csv.writer(text, lineterminator="\n")
-    stds = ([] if not recorded.scatters else ["std"] if len(recorded.channels) == 1 else
-            [f"std_{channel}" for channel in recorded.channels])  # fmt: skip
+    columns = recorded.columns
     named = ["target"] if rows.target is not None else []
     joints = [name.replace("#", "") for name in recorded.joint_names]  # it would begin a comment
-    writer.writerow([*joints, *recorded.channels, *stds, "repeats", "time", *named])
+    writer.writerow([*joints, *columns, "repeats", "time", *named])
     for k in range(len(rows)):
-        numbers = [f"{value:.10g}" for value in (*rows.joints[k], *rows.values[k])]
-        certain = [f"{value:.4g}" for value in rows.std[k]] if stds else []
+        numbers = [*(f"{value:.10g}" for value in rows.joints[k]), *(column[k] for column in columns.values())]
         target = [rows.target[k]] if rows.target is not None else []
-        writer.writerow([*numbers, *certain, int(rows.repeats[k]), f"{rows.time[k]:.3f}", *target])
+        writer.writerow([*numbers, int(rows.repeats[k]), f"{rows.time[k]:.3f}", *target])
     return text.getvalue()
 
 
@@ -179,10 +213,10 @@ def _readings(bag: Bag, topics: Topics, clock: Clock, offset: float) -> tuple[Si
     messages = bag.messages[topics.readings]
     numbers = np.array(messages.values, dtype=np.float64)
     time = clock.time(messages) + offset
-    if topics.kind == "position":
-        bad = ~np.isfinite(numbers).all(axis=1)
-        numbers[bad] = np.nan
-        return Signal.of(time, numbers), {"no value": int(bad.sum())} if bad.any() else {}
+    if topics.kind != "range":
+        numbers, reasons = _places(numbers[:, : len(CHANNELS[topics.kind])])
+        ordered = Signal.of(time, numbers)
+        return Signal(ordered.time, _on_one_side(ordered.values)), reasons
     value, low, high = numbers.T
     limited = high > low
     reason = np.select(
@@ -192,6 +226,35 @@ def _readings(bag: Bag, topics: Topics, clock: Clock, offset: float) -> tuple[Si
     )
     counts = Counter(reason[reason != ""].tolist())
     return Signal.of(time, np.where(reason == "", value, np.nan)[:, None]), dict(sorted(counts.items()))
+
+
+def _places(
+    numbers: Float[np.ndarray, "messages channels"],
+) -> tuple[Float[np.ndarray, "messages channels"], dict[str, int]]:
+    """Returns positions or poses, NaN where they have no value, and how many those are for which reason."""
+    bad = ~(np.abs(numbers) <= LARGEST).all(axis=1)
+    size = np.linalg.norm(np.where(bad[:, None], 1.0, numbers)[:, 3:], axis=1)
+    turned = ~bad & (np.abs(size - 1.0) > NEARLY_UNIT) if numbers.shape[1] > 3 else np.zeros(len(bad), dtype=bool)
+    reasons = {"no value": int(bad.sum()), "no unit quaternion": int(turned.sum())}
+    return np.where((bad | turned)[:, None], np.nan, numbers), {why: count for why, count in reasons.items() if count}
+
+
+def _on_one_side(values: Float[np.ndarray, "samples channels"]) -> Float[np.ndarray, "samples channels"]:
+    """Returns poses with the sign of each quaternion that is nearer to the one before: q and -q are one orientation."""
+    found, known = values.copy(), np.flatnonzero(np.isfinite(values).all(axis=1))
+    turns = values[known, 3:]
+    if turns.size:
+        flips = np.where(np.sum(turns[1:] * turns[:-1], axis=1) < 0.0, -1.0, 1.0)
+        found[known[1:], 3:] *= np.cumprod(flips)[:, None]
+    return found
+
+
+def _by_axis(std: Float[np.ndarray, "rows 4"]) -> Float[np.ndarray, " rows"]:
+    """Returns the standard deviation about each axis [rad] of quaternions with these of their numbers.
+
+    A small turn by (a, b, c) moves a quaternion by half of it, within the three directions square to it.
+    """
+    return 2.0 * np.sqrt(np.sum(std**2, axis=1) / 3.0)
 
 
 def _targets(bag: Bag, words: str | None, choice: Choice, clock: Clock, start: float) -> list[tuple[float, str]] | None:

@@ -386,6 +386,7 @@ class DataEntry(Entry):
     joints: Annotated[tuple[str, ...], BeforeValidator(lambda value: _topics(value))] = ()
     range: str | None = None
     position: str | None = None
+    pose: str | None = None
     target: Name | None = None
     targets: str | None = None
     time_offset: Number = 0.0

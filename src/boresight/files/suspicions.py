@@ -33,7 +33,21 @@ def suspicions(readings: Readings, cell: Cell, units: Units, name: str) -> tuple
     angles = _wrong_angles(readings, cell, units, name)
     # In the wrong unit every joint is beyond its limits: one sentence says it better than six.
     beyond = [] if angles else _beyond_limits(readings, cell, units, name)
-    return tuple(printable(warning) for warning in (*copies, *angles, *beyond))
+    still = _never_turns(readings, name)
+    return tuple(printable(warning) for warning in (*copies, *angles, *beyond, *still))
+
+
+def _never_turns(readings: Readings, name: str) -> list[str]:
+    """Poses that are all turned alike, as from a tracker that reports positions alone."""
+    poses = readings.reference
+    if poses is None or len(readings) < 2 or not np.ptp(readings.joints, axis=0).any():
+        return []
+    if np.ptp(poses, axis=0).max() > 1e-9:
+        return []
+    return [
+        f"{name}: every pose has the same orientation though the joints move; if the tracker measures positions alone, "
+        "say sensor: {type: position} in the campaign"
+    ]
 
 
 def _copies(readings: Readings, name: str) -> list[str]:

@@ -6,14 +6,15 @@ from dataclasses import dataclass
 
 from boresight.errors import InputError, did_you_mean
 from boresight.files.bags import Bag
-from boresight.files.bags.messages import JOINTS, POSITIONS, RANGES, WORDS
-from boresight.files.problems import printable, shown
+from boresight.files.bags.messages import JOINTS, POSES, POSITIONS, RANGES, WORDS
+from boresight.files.bags.tape import TRANSFORMS
+from boresight.files.problems import listed, printable, shown
 from boresight.recordings import Rules
 
-CHANNELS = {"range": ("range",), "position": ("x", "y", "z")}
+CHANNELS = {"range": ("range",), "position": ("x", "y", "z"), "pose": ("x", "y", "z", "qw", "qx", "qy", "qz")}
 """The columns of what a bag can hold, by the key that names its topic."""
 
-_TYPES = {"range": RANGES, "position": POSITIONS}
+_TYPES = {"range": RANGES, "position": (*POSITIONS, *POSES), "pose": POSES}
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,8 @@ class Choice:
     Attributes:
         joints: topics of joint states; empty takes the only one there is.
         range: topic of ranges; None takes the only one there is.
-        position: topic of measured positions, in place of ranges.
+        position: topic of measured positions, in place of ranges; or of poses, whose orientation is left out.
+        pose: topic of measured poses, in place of ranges.
         target: what the sensor pointed at all the time.
         targets: topic of words that name the target from then on; None takes one that is called `target`.
         time_offset: added to the readings' times [s]: how much the sensor's clock is behind the arm's.
@@ -33,6 +35,7 @@ class Choice:
     joints: tuple[str, ...] = ()
     range: str | None = None
     position: str | None = None
+    pose: str | None = None
     target: str | None = None
     targets: str | None = None
     time_offset: float = 0.0
@@ -41,8 +44,17 @@ class Choice:
     @property
     def topics(self) -> tuple[str, ...]:
         """Every topic that is named."""
-        named = (*self.joints, self.range, self.position, self.targets)
+        named = (*self.joints, self.range, self.position, self.pose, self.targets)
         return tuple(topic for topic in named if topic is not None)
+
+    @property
+    def transforms(self) -> tuple[str, ...]:
+        """The topics that poses are read of where they hold many frames: /tf of /tf:tool."""
+        return tuple(topic.partition(":")[0] for topic in (self.position, self.pose) if topic is not None)
+
+    def readings(self, kind: str) -> str | None:
+        """Returns the topic that is named for a kind of reading."""
+        return {"range": self.range, "position": self.position, "pose": self.pose}[kind]
 
 
 @dataclass(frozen=True)
@@ -51,7 +63,7 @@ class Topics:
 
     Attributes:
         joints: of joint states.
-        kind: `range` or `position`.
+        kind: `range`, `position` or `pose`.
         readings: of these.
         targets: of words that name targets, or None.
     """
@@ -74,15 +86,14 @@ def topics_of(bag: Bag, choice: Choice, kind: str | None = None) -> Topics:
     Args:
         bag: where they are.
         choice: what was named.
-        kind: `range` or `position`; whichever was named or is there, ranges first, by default.
+        kind: `range`, `position` or `pose`; whichever was named or is there, in this order, by default.
 
     Raises:
         InputError: a topic is missing, of another type, or not to be told from others.
     """
     _check_named(bag, choice)
-    kind = kind or ("position" if choice.position or not (choice.range or bag.of_type(*RANGES)) else "range")
-    types = _TYPES[kind]
-    named = choice.range if kind == "range" else choice.position
+    kind = kind or _kind(bag, choice)
+    types, named = _TYPES[kind], choice.readings(kind)
     joints = choice.joints or (_only(bag, "joints", JOINTS),)
     found = Topics(joints, kind, named or _only(bag, kind, types), choice.targets or _target_topic(bag, choice))
     for joint in found.joints:
@@ -91,6 +102,12 @@ def topics_of(bag: Bag, choice: Choice, kind: str | None = None) -> Topics:
     if found.targets is not None:
         _check_type(bag, "targets", found.targets, WORDS)
     return found
+
+
+def _kind(bag: Bag, choice: Choice) -> str:
+    named = [kind for kind in CHANNELS if choice.readings(kind) is not None]
+    there = [("range", RANGES), ("position", POSITIONS), ("pose", POSES)]
+    return (named or [kind for kind, types in there if bag.of_type(*types)] or ["range"])[0]
 
 
 def _check_named(bag: Bag, choice: Choice) -> None:
@@ -104,7 +121,13 @@ def _check_named(bag: Bag, choice: Choice) -> None:
 
 
 def _check_type(bag: Bag, key: str, topic: str, types: tuple[str, ...]) -> None:
-    if bag.topics[topic].type not in types:
+    kind, frames = bag.topics[topic].type, [t for t in bag.topics if t.startswith(f"{topic}:")]
+    if kind == TRANSFORMS and POSES[0] in types:
+        if topic in bag.messages:
+            return
+        one = f"; name one of them: {key}: {frames[0]}" if frames else ""
+        raise InputError(printable(f"{bag.name}: {key}: {topic} holds the frames {listed(frames)}{one}"))
+    if kind not in types:
         given = f"{key}: {topic} is of type {bag.topics[topic].type}"
     elif topic not in bag.messages or not len(bag.messages[topic]):
         given = f"{key}: {topic} has no message that could be read"

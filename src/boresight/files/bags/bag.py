@@ -8,9 +8,9 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from boresight.errors import InputError
-from boresight.files.bags.messages import TYPES, Decoded, decode
+from boresight.files.bags.messages import TYPES, Decoded, by_frame, decode
 from boresight.files.bags.storages import digest, files_of, read_storage
-from boresight.files.bags.tape import Tape, TooMuch
+from boresight.files.bags.tape import TRANSFORMS, Tape, TooMuch
 from boresight.files.problems import printable
 
 _TOPICS_TOLD = 12
@@ -55,20 +55,22 @@ class Bag:
         return (", ".join(told[:_TOPICS_TOLD]) or "nothing") + more
 
 
-def read_bag(path: Path, name: str, topics: Collection[str] = ()) -> Bag:
+def read_bag(path: Path, name: str, topics: Collection[str] = (), transforms: Collection[str] = ()) -> Bag:
     """Returns what can be read of a rosbag2 folder, or of one of its files.
 
     Args:
         path: of the folder, the `.mcap` or the `.db3` file.
         name: what the user calls it.
         topics: names of the topics to read; every topic of a known type by default.
+        transforms: names of the topics of `tf2_msgs/msg/TFMessage` to read too: each frame of one becomes a topic
+            of its own, /tf:frame.
 
     Raises:
         InputError: rosbags is not installed, this is no bag, or nothing in it can be read.
     """
     if find_spec("rosbags") is None:
         raise InputError(f"{name}: reading ROS bags needs rosbags: pip install 'boresight[ros]'")
-    tape = Tape(name, TYPES, frozenset(topics))
+    tape = Tape(name, TYPES, frozenset(topics), frozenset(transforms))
     try:
         files = files_of(path, name, tape)
         refused: list[str] = []
@@ -89,9 +91,14 @@ def read_bag(path: Path, name: str, topics: Collection[str] = ()) -> Bag:
         decoded[topic] = decode(tape.type_of[topic], tape.kept.pop(topic))
         if decoded[topic].unreadable:
             tape.lose(f"{name}: {decoded[topic].unreadable} messages of {topic} could not be decoded")
+    told = {topic: Topic(topic, tape.type_of[topic], tape.counts[topic]) for topic in sorted(tape.type_of)}
+    for topic in [topic for topic in decoded if tape.type_of[topic] == TRANSFORMS]:
+        for frame, poses in by_frame(decoded.pop(topic)).items():
+            decoded[f"{topic}:{frame}"] = poses
+            told[f"{topic}:{frame}"] = Topic(f"{topic}:{frame}", TRANSFORMS, len(poses))
     return Bag(
         name,
-        {topic: Topic(topic, tape.type_of[topic], tape.counts[topic]) for topic in sorted(tape.type_of)},
+        told,
         decoded,
         tuple(printable(loss) for loss in (*refused, *tape.losses)),
         sha256,

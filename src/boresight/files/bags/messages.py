@@ -15,15 +15,22 @@ from jaxtyping import Float
 
 from boresight.files.bags.inflating import inflate
 from boresight.files.bags.joint_states import JointStateReader
-from boresight.files.bags.tape import LARGEST_MESSAGE
+from boresight.files.bags.tape import LARGEST_MESSAGE, TRANSFORMS
 from boresight.files.signatures import ZSTD
 
 JOINTS = ("sensor_msgs/msg/JointState",)
 RANGES = ("sensor_msgs/msg/Range", "std_msgs/msg/Float64", "std_msgs/msg/Float32")
 POSITIONS = ("geometry_msgs/msg/PointStamped",)
+POSES = (
+    "geometry_msgs/msg/PoseStamped",
+    "geometry_msgs/msg/PoseWithCovarianceStamped",
+    "geometry_msgs/msg/TransformStamped",
+)
 WORDS = ("std_msgs/msg/String",)
-TYPES = (*JOINTS, *RANGES, *POSITIONS, *WORDS)
+TYPES = (*JOINTS, *RANGES, *POSITIONS, *POSES, *WORDS)
 """The types of message that are decoded."""
+
+Pose = tuple[float, float, float, float, float, float, float]
 
 _LONGEST_WORD = 200
 _MOST_JOINTS = 10_000
@@ -37,7 +44,7 @@ class Decoded:
         received: (messages,) when the recorder got each [s].
         stamp: (messages,) the header's time of each [s]; None where there is no header, or one that was left at zero.
         values: a row a message: joint positions [rad or m] by name; (range, lowest, highest) [m]; (x, y, z) [m];
-            a word.
+            (x, y, z) [m] and a quaternion, w first; a word; ((frame, stamp [ns], pose), ...) of a `TRANSFORMS`.
         unreadable: how many messages were not what their type says.
     """
 
@@ -55,7 +62,7 @@ def decode(kind: str, messages: Iterable[tuple[int, bytes]]) -> Decoded:
     """Returns the messages of a topic, those that cannot be decoded left out and counted.
 
     Args:
-        kind: one of `TYPES`.
+        kind: one of `TYPES`, or `TRANSFORMS`.
         messages: (received [ns], serialised) of each; inflated here where each was compressed by itself.
     """
     read, received, stamps, values, unreadable = _reader(kind), [], [], [], 0
@@ -70,6 +77,19 @@ def decode(kind: str, messages: Iterable[tuple[int, bytes]]) -> Decoded:
         values.append(value)
     stamped = all(stamps) and bool(stamps)
     return Decoded(_seconds(received), _seconds(stamps) if stamped else None, values, unreadable)
+
+
+def by_frame(decoded: Decoded) -> dict[str, Decoded]:
+    """Returns the poses of every frame that messages of type `TRANSFORMS` tell of, by its name."""
+    found: dict[str, list[tuple[float, int, Pose]]] = {}
+    for received, transforms in zip(decoded.received.tolist(), decoded.values, strict=True):
+        for frame, stamp, pose in transforms:
+            found.setdefault(frame.lstrip("/"), []).append((received, stamp, pose))
+    return {frame: _of_frame(*zip(*messages, strict=True)) for frame, messages in found.items()}
+
+
+def _of_frame(received: tuple[float, ...], stamps: tuple[int, ...], poses: tuple[Pose, ...]) -> Decoded:
+    return Decoded(np.array(received), _seconds(list(stamps)) if all(stamps) else None, list(poses), 0)
 
 
 def _seconds(nanoseconds: list[int]) -> Float[np.ndarray, " messages"]:
@@ -119,6 +139,29 @@ def _position(message: Any) -> tuple[float, float, float]:
     return message.point.x, message.point.y, message.point.z
 
 
+def _pose_stamped(message: Any) -> Pose:
+    return _pose(message.pose.position, message.pose.orientation)
+
+
+def _pose_with_covariance(message: Any) -> Pose:
+    return _pose(message.pose.pose.position, message.pose.pose.orientation)
+
+
+def _transform(message: Any) -> Pose:
+    return _pose(message.transform.translation, message.transform.rotation)
+
+
+def _transforms(message: Any) -> tuple[tuple[str, int, Pose], ...]:
+    return tuple(
+        (each.child_frame_id, each.header.stamp.sec * 10**9 + each.header.stamp.nanosec, _transform(each))
+        for each in message.transforms
+    )
+
+
+def _pose(at: Any, turned: Any) -> Pose:
+    return at.x, at.y, at.z, turned.w, turned.x, turned.y, turned.z
+
+
 def _word(message: Any) -> str:
     return str(message.data)[:_LONGEST_WORD]
 
@@ -128,5 +171,7 @@ _TAKERS: dict[str, Callable[[Any], Any]] = {
     **dict.fromkeys(RANGES, _number),
     RANGES[0]: _range,
     **dict.fromkeys(POSITIONS, _position),
+    **dict(zip(POSES, (_pose_stamped, _pose_with_covariance, _transform), strict=True)),
+    TRANSFORMS: _transforms,
     **dict.fromkeys(WORDS, _word),
 }

@@ -14,6 +14,9 @@ LIMIT_MIB = 1024
 LARGEST_MESSAGE = 2**20
 """No joint state or range is longer than this [bytes]; a message that says so is not one."""
 
+TRANSFORMS = "tf2_msgs/msg/TFMessage"
+"""The type that holds the transforms of many frames, as a rule of the robot's own: kept where a topic is named."""
+
 _TOLD = 10
 
 
@@ -29,6 +32,7 @@ class Tape:
         name: what the user calls the bag.
         types: message types that are worth keeping.
         topics: names of the topics to keep; empty keeps every topic of these types.
+        transforms: names of the topics of `TRANSFORMS` to keep too.
         type_of: type of every topic, by name.
         counts: messages of every topic.
         kept: (received [ns], serialised message), by topic.
@@ -38,6 +42,7 @@ class Tape:
     name: str
     types: Collection[str]
     topics: Collection[str] = ()
+    transforms: Collection[str] = ()
     type_of: dict[str, str] = field(default_factory=dict)
     counts: Counter[str] = field(default_factory=Counter)
     kept: dict[str, list[tuple[int, bytes]]] = field(default_factory=dict)
@@ -58,7 +63,10 @@ class Tape:
 
     def wants(self, topic: str) -> bool:
         """Whether messages of a topic are kept."""
-        return self.type_of.get(topic) in self.types and (not self.topics or topic in self.topics)
+        kind = self.type_of.get(topic)
+        if kind == TRANSFORMS:
+            return topic in self.transforms
+        return kind in self.types and (not self.topics or topic in self.topics)
 
     def count(self, topic: str) -> None:
         """Counts a message that is not kept."""
