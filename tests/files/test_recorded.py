@@ -373,3 +373,16 @@ def test_validation_may_be_a_bag_too(folder):
     campaign = load_campaign("campaign.yaml")
     assert len(campaign.validation) == 6
     assert any("they prove nothing" in warning for warning in campaign.warnings)
+
+
+@pytest.mark.parametrize("low", [-math.pi, 0.0])
+def test_pauses_at_the_seam_of_a_joint_that_wraps_give_rows(recorded, low):
+    script, at = bags.run(6)
+    shift = low - at[2, 0]
+    for _, topic, message in script.messages:
+        if topic == "/joint_states":
+            message.position[0] = low + (message.position[0] + shift - low) % (2 * math.pi)
+    found = recorded(script)
+    off = found.rows.joints - (at + np.array([shift, 0.0]))
+    assert np.abs((off + math.pi) % (2 * math.pi) - math.pi).max() < 1e-4
+    assert "Readings that start again after a full turn were made continuous: j1." in found.remarks

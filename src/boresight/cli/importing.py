@@ -19,7 +19,7 @@ from boresight.files.chosen_robots import robot_of_campaign
 from boresight.files.dialects import described, in_house_words
 from boresight.files.joint_logs import paired
 from boresight.files.observations import LIMIT_MIB
-from boresight.files.recorded import Recorded, began, read_recorded, rows_csv
+from boresight.files.recorded import Recorded, began, read_recorded, rows_csv, sliding_joints
 from boresight.files.robots import is_urdf, load_robot
 from boresight.files.sheets import csv_text, sheet_of
 from boresight.files.sources import read_source
@@ -118,7 +118,7 @@ class ArmOf:
 def _bag(path: Path, choice: Choice, arm: ArmOf) -> tuple[dict[str, object], str]:
     joints, every = arm.joints()
     names = [joint.name for joint in joints] or None
-    recorded = read_recorded(path, str(path), choice, names, all_joints=every)
+    recorded = read_recorded(path, str(path), choice, names, all_joints=every, sliding=sliding_joints(joints))
     return _summary(recorded), rows_csv(recorded)
 
 
@@ -163,7 +163,7 @@ def _table(path: Path, arm: ArmOf, joint_file: Path | None, marker: int | None) 
         log = read_source(
             joint_file, str(joint_file), kind="a CSV file of joint readings", limit_mib=LIMIT_MIB, mend=mend
         )
-        pairs = paired(ours, sheet_of(log), names if every else None)
+        pairs = paired(ours, sheet_of(log), names if every else None, sliding_joints(joints))
         ours = pairs.sheet
         notes.append(f"Joints and measurements were paired {'by time' if pairs.by_time else 'row by row'}.")
         lines = ", ".join(map(str, pairs.left_out[:6])) + (" and others" if len(pairs.left_out) > 6 else "")

@@ -10,7 +10,7 @@ import numpy as np
 from boresight.errors import InputError
 from boresight.files.observations import Observations, observations_of
 from boresight.files.problems import listed, printable
-from boresight.files.recorded import Recorded, read_recorded, rows_csv
+from boresight.files.recorded import Recorded, read_recorded, rows_csv, sliding_joints
 from boresight.files.schemas import DataEntry
 from boresight.files.sheets import sheet_of
 from boresight.files.sources import Source
@@ -42,7 +42,9 @@ def read_bag_observations(path: Path, *, cell: Cell, entry: DataEntry, named_by:
     """
     kind = _kind(cell, named_by)
     try:
-        recorded = read_recorded(path, entry.name, choice_of(entry), cell.arm.joint_names, kind)
+        recorded = read_recorded(
+            path, entry.name, choice_of(entry), cell.arm.joint_names, kind, sliding=sliding_joints(cell.arm.driven)
+        )
     except InputError as error:
         raise InputError([f"{named_by}{problem}" for problem in error.problems]) from None
     rows = sheet_of(Source(path, entry.name, rows_csv(recorded).encode()))

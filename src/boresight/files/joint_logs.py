@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
@@ -33,7 +33,9 @@ class Paired:
     by_time: bool
 
 
-def paired(measured: Sheet, joints: Sheet, wanted: Sequence[str] | None = None) -> Paired:
+def paired(
+    measured: Sheet, joints: Sheet, wanted: Sequence[str] | None = None, sliding: Collection[str] = ()
+) -> Paired:
     """Returns measurements with the joints of another file beside them, which is in radians and metres.
 
     Where both files have a column `time`, the joints are interpolated at the times of the measurements; otherwise
@@ -43,6 +45,7 @@ def paired(measured: Sheet, joints: Sheet, wanted: Sequence[str] | None = None) 
         measured: in the house's words.
         joints: a column a joint, and `time` perhaps.
         wanted: the joints to use; all of the file's by default.
+        sliding: joints that slide; the others may start again after a full turn.
 
     Raises:
         InputError: they do not belong together.
@@ -61,7 +64,7 @@ def paired(measured: Sheet, joints: Sheet, wanted: Sequence[str] | None = None) 
         when = _times(rows, lines, header.index("time"), measured.name)
         log = _times(joint_rows, joint_lines, joint_header.index("time"), joints.name)
         signals = {name: Signal.of(log, positions[:, [k]]) for k, name in enumerate(names)}
-        found = Trajectory.of(names, signals).at(when)
+        found = Trajectory.of(names, signals, sliding=sliding).at(when)
     elif len(rows) != len(joint_rows):
         raise InputError(
             f"{joints.name}: {len(joint_rows)} rows for {len(rows)} measurements of {measured.name}; expected a row "

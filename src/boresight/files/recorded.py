@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from boresight.arm import Joint
 from boresight.errors import InputError, did_you_mean
 from boresight.files.bags import Bag, read_bag
 from boresight.files.clocks import Clock, clock_of
@@ -93,6 +94,11 @@ class Recorded:
         return found
 
 
+def sliding_joints(joints: Sequence[Joint]) -> tuple[str, ...]:
+    """Returns the names of the joints that slide: their readings never start again after a turn."""
+    return tuple(joint.name for joint in joints if joint.type != "revolute")
+
+
 def read_recorded(
     path: Path,
     name: str,
@@ -101,6 +107,7 @@ def read_recorded(
     kind: str | None = None,
     *,
     all_joints: bool = True,
+    sliding: Collection[str] = (),
 ) -> Recorded:
     """Returns the rows of a bag, in metres and radians.
 
@@ -111,6 +118,7 @@ def read_recorded(
         joint_names: the arm's joints; those of the bag, in its order, by default.
         kind: `range`, `position` or `pose`; whichever the bag holds by default.
         all_joints: whether every one of `joint_names` must be there, or those that are there are used.
+        sliding: joints that slide; the others may start again after a full turn.
 
     Raises:
         InputError: it cannot be read, a topic is missing or not to be told from others, or no row can be made.
@@ -123,7 +131,7 @@ def read_recorded(
     names = _arm(bag, joints, named)
     readings, reasons = _readings(bag, topics, clock, choice.time_offset)
     start = min(min(joints[n].time[0] for n in names), readings.time[0])
-    trajectory = Trajectory.of(names, {n: _from(joints[n], start) for n in names}, choice.rules.longest_gap)
+    trajectory = Trajectory.of(names, {n: _from(joints[n], start) for n in names}, choice.rules.longest_gap, sliding)
     rows = rows_of(
         trajectory, _from(readings, start), choice.rules, _targets(bag, topics.targets, choice, clock, start)
     )
@@ -131,6 +139,8 @@ def read_recorded(
         raise InputError(printable(_no_rows(name, rows, trajectory, choice.rules)))
     others = sorted(set(joints) - set(names))
     ignored = (f"Joints that the arm does not have are ignored: {listed(map(printable, others))}.",) if others else ()
+    wraps = sorted(trajectory.wrapped)
+    turned = (f"Readings that start again after a full turn were made continuous: {listed(wraps)}.",) if wraps else ()
     return Recorded(
         bag,
         names,
@@ -143,7 +153,7 @@ def read_recorded(
             "readings": len(bag.messages[topics.readings]),
         },
         reasons,
-        tuple(printable(remark) for remark in (*clock.remarks, *ignored)),
+        tuple(printable(remark) for remark in (*clock.remarks, *ignored, *turned)),
     )
 
 

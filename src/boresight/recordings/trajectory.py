@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from jaxtyping import Float
 
 from boresight.recordings.rules import USUAL_GAP
 from boresight.recordings.signal import Signal
+from boresight.recordings.wrapping import TURN, put_back, turns_of
 
 
 @dataclass(frozen=True)
@@ -20,25 +21,42 @@ class Trajectory:
         names: of the joints, in order.
         signals: (samples, 1) readings [rad or m] of each.
         longest_gap: [s] of each, across which nothing is known.
+        wrapped: (samples,) readings [rad] as they were reported, of joints that start again after a full turn, by name;
+            their signals are continuous.
     """
 
     names: tuple[str, ...]
     signals: tuple[Signal, ...]
     longest_gap: tuple[float, ...]
+    wrapped: Mapping[str, Float[np.ndarray, " samples"]] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, names: Sequence[str], signals: Mapping[str, Signal], longest_gap: float | None = None) -> Trajectory:
+    def of(
+        cls,
+        names: Sequence[str],
+        signals: Mapping[str, Signal],
+        longest_gap: float | None = None,
+        sliding: Collection[str] = (),
+    ) -> Trajectory:
         """Returns the trajectory of some joints.
 
         Args:
             names: the joints, in order.
             signals: the samples of each, by name.
             longest_gap: [s]; None takes three times a joint's usual distance of samples, at least 0.2 s.
+            sliding: joints that are known to slide, whose readings never wrap.
         """
-        chosen = tuple(signals[name] for name in names)
+        chosen, wrapped = [], {}
+        for name in names:
+            signal = signals[name]
+            turns = np.zeros(len(signal)) if name in sliding else turns_of(signal.values[:, 0])
+            if turns.any():
+                wrapped[name] = signal.values[:, 0]
+                signal = Signal(signal.time, signal.values + TURN * turns[:, None])
+            chosen.append(signal)
         usual = [3.0 * float(np.median(np.diff(s.time))) if len(s) > 1 else 0.0 for s in chosen]
         gaps = [longest_gap if longest_gap is not None else max(USUAL_GAP, gap) for gap in usual]
-        return cls(tuple(names), chosen, tuple(gaps))
+        return cls(tuple(names), tuple(chosen), tuple(gaps), wrapped)
 
     @property
     def span(self) -> tuple[float, float]:
@@ -47,9 +65,10 @@ class Trajectory:
 
     def at(self, time: Float[np.ndarray, " times"]) -> Float[np.ndarray, "times joints"]:
         """Returns the joints' readings at some times, linear between samples; NaN outside and across gaps."""
-        return np.stack(
+        found = np.stack(
             [_interpolated(s, gap, time) for s, gap in zip(self.signals, self.longest_gap, strict=True)], axis=1
         )
+        return self._as_reported(found)
 
     def during(self, start: float, end: float, when: float) -> Float[np.ndarray, " joints"]:
         """Returns the joints' readings at a time within a phase, by a straight line through the phase's samples.
@@ -61,7 +80,14 @@ class Trajectory:
             end: of the phase [s].
             when: the time [s], as a rule the mean time of what was measured meanwhile.
         """
-        return np.array([_line(s, s.between(start, end), when) for s in self.signals])
+        return self._as_reported(np.array([[_line(s, s.between(start, end), when) for s in self.signals]]))[0]
+
+    def _as_reported(self, found: Float[np.ndarray, "times joints"]) -> Float[np.ndarray, "times joints"]:
+        """Returns readings, those of wrapped joints within the turn in which they were reported."""
+        for name, readings in self.wrapped.items():
+            place = self.names.index(name)
+            found[:, place] = put_back(found[:, place], readings)
+        return found
 
 
 def _interpolated(signal: Signal, gap: float, time: Float[np.ndarray, " times"]) -> Float[np.ndarray, " times"]:
