@@ -119,3 +119,10 @@ def test_of_samples_at_one_time_the_last_counts():
 def test_hardly_any_samples_are_no_pause(samples):
     time = np.arange(samples) * 10.0
     assert len(still_phases(trajectory(time, np.zeros((samples, 1))), RULES)) == 0
+
+
+def test_a_joint_without_a_sample_in_a_phase_is_interpolated():
+    fast, slow = np.arange(0.0, 30.0, 0.01), np.arange(0.0, 31.0, 5.0)
+    signals = {"a": Signal.of(fast, np.ones((len(fast), 1))), "b": Signal.of(slow, 0.001 * slow[:, None])}
+    found = Trajectory.of(["a", "b"], signals)
+    np.testing.assert_allclose(found.during(6.0, 7.0, 6.5), [1.0, 0.0065])

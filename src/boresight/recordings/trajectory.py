@@ -101,6 +101,8 @@ def _interpolated(signal: Signal, gap: float, time: Float[np.ndarray, " times"])
 
 def _line(signal: Signal, samples: slice, when: float) -> float:
     time, values = signal.time[samples], signal.values[samples, 0]
+    if not len(time):  # a joint that is reported less often than the arm stands still
+        return float(np.interp(when, signal.time, signal.values[:, 0]))
     middle = time.mean()
     spread = np.sum((time - middle) ** 2)
     slope = np.sum((time - middle) * values) / spread if len(time) > 2 and spread > 0.0 else 0.0
