@@ -112,3 +112,48 @@ def test_no_file_is_told_where_one_is_needed(tmp_path):
         pass
     with pytest.raises(OutputError, match="cannot be opened"), Store.open(tmp_path / "no" / "runs.sqlite"):
         pass
+
+
+def changed(path, outcome, *statements):
+    with Store.open(path) as store:
+        store.add(point(), 0, outcome)
+    connection = sqlite3.connect(path)
+    for statement in statements:
+        connection.execute(statement)
+    connection.commit()
+    connection.close()
+
+
+@pytest.mark.parametrize(
+    ("statement", "told"),
+    [
+        ("UPDATE runs SET position_rms = 'x'", "position_rms: got 'x'; expected a number"),
+        ("UPDATE runs SET free = 1.5", "free: got 1.5; expected a whole number"),
+        ("UPDATE runs SET free = x'00'", "free: got b"),
+        ("UPDATE runs SET failure = NULL", "failure: got None; expected text"),
+    ],
+)
+def test_values_of_another_kind_are_told(tmp_path, outcome, statement, told):
+    changed(tmp_path / "runs.sqlite", outcome, statement)
+    with Store.open(tmp_path / "runs.sqlite") as store, pytest.raises(InputError) as caught:
+        store.outcomes(point(), 1)
+    assert told in str(caught.value)
+    with Store.open(tmp_path / "new.sqlite") as store, pytest.raises(InputError):
+        store.absorb(tmp_path / "runs.sqlite")
+
+
+@pytest.mark.parametrize(
+    "statements",
+    [
+        ["CREATE TRIGGER t AFTER INSERT ON runs BEGIN DELETE FROM runs; END"],
+        ["ALTER TABLE points RENAME TO p", "CREATE VIEW points AS SELECT * FROM p"],
+        ["ALTER TABLE points ADD COLUMN more TEXT GENERATED ALWAYS AS (hex(point))"],
+    ],
+)
+def test_views_triggers_and_computed_columns_are_refused(tmp_path, outcome, statements):
+    changed(tmp_path / "runs.sqlite", outcome, *statements)
+    with (
+        pytest.raises(InputError, match="expected the tables points and runs alone"),
+        Store.open(tmp_path / "runs.sqlite"),
+    ):
+        pass

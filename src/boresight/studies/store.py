@@ -28,7 +28,24 @@ PATIENCE_S = 60.0
 """How long a writer waits for another one."""
 
 _COLUMNS = tuple(field.name for field in fields(Outcome))
+_KINDS = tuple(str(field.type) for field in fields(Outcome))
+_ACCEPTED: dict[str, tuple[type, ...]] = {"str": (str,), "int": (int,), "float": (float, int, type(None))}
 _TYPES = {"str": "TEXT", "int": "INTEGER", "float": "REAL"}
+
+
+_LONGEST = 2**24
+"""Bytes of the longest value or statement that is read."""
+
+_STRANGE = (
+    "SELECT type, name FROM sqlite_master WHERE type IN ('view', 'trigger') OR (type = 'table' "
+    "AND (name NOT IN ('points', 'runs') AND name NOT LIKE 'sqlite_stat%' OR sql LIKE '%VIRTUAL%' "
+    "OR sql LIKE '%GENERATED%' OR sql LIKE '% AS (%')) LIMIT 1"
+)
+
+
+def _shown(value: object) -> str:
+    """Returns a value out of a database as a short phrase for a message."""
+    return ascii(value)[:60]
 
 
 class Store:
@@ -93,7 +110,7 @@ class Store:
         wanted = f"SELECT seed, {', '.join(_COLUMNS)} FROM runs WHERE point = ? AND seed < ? ORDER BY seed"
         with _explained(self.path):
             rows = self._file.execute(wanted, (point.key, seeds)).fetchall()
-        return {seed: _restored(row) for seed, *row in rows}
+        return {seed: _restored(row, self.path) for seed, *row in rows}
 
     def count(self, points: Collection[Point], seeds: int) -> int:
         """Returns how many runs of some points are done, below a number of seeds."""
@@ -111,6 +128,7 @@ class Store:
             with _explained(other):
                 points = source._file.execute("SELECT point, settings FROM points").fetchall()
                 runs = source._file.execute(f"SELECT point, seed, {', '.join(_COLUMNS)} FROM runs").fetchall()
+            _check_runs(points, runs, other)
             before = self._file.execute("SELECT count(*) FROM runs").fetchone()[0]
             with self._at_once():
                 self._file.executemany("INSERT OR IGNORE INTO points VALUES (?, ?)", points)
@@ -138,15 +156,23 @@ class Store:
 
 def _prepare(connection: sqlite3.Connection, path: Path) -> None:
     """Makes the tables of a new file, and refuses a file that is not ours."""
+    connection.execute("PRAGMA trusted_schema = OFF")
+    connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, _LONGEST)
     connection.execute("BEGIN")  # one view of the file, which another process may be making just now
     application, version = (connection.execute(f"PRAGMA {n}").fetchone()[0] for n in ("application_id", "user_version"))
     tables = connection.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
+    strange = connection.execute(_STRANGE).fetchone()
     connection.execute("COMMIT")
     if application == APPLICATION:
         if version != VERSION:
             raise InputError(
                 f"{path}: these results have format {version} and this Boresight reads format {VERSION}; "
                 "use the version that made them, or another file"
+            )
+        if strange is not None:
+            raise InputError(
+                f"{path}: holds the {strange[0]} {_shown(strange[1])}; expected the tables points and runs alone: "
+                "give another file, or make the runs again"
             )
     elif tables or application or version:
         raise InputError(f"{path}: this is a database of something else; expected one of boresight study")
@@ -169,8 +195,28 @@ def _stored(outcome: Outcome) -> tuple[Any, ...]:
     return astuple(outcome)
 
 
-def _restored(row: Sequence[Any]) -> Outcome:
-    """Returns an outcome; sqlite keeps NaN as NULL."""
+def _check_runs(points: Sequence[tuple[Any, ...]], runs: Sequence[tuple[Any, ...]], path: Path) -> None:
+    """Raises an `InputError` for rows that are not of a study."""
+    if not all(isinstance(value, str) for row in points for value in row):
+        raise InputError(f"{path}: a point of the study is not text; the database is damaged: make the runs again")
+    for point, seed, *row in runs:
+        if not isinstance(point, str) or not isinstance(seed, int):
+            raise InputError(f"{path}: a run has no point or no seed; the database is damaged: make the runs again")
+        _restored(row, path)
+
+
+def _restored(row: Sequence[Any], path: Path) -> Outcome:
+    """Returns an outcome; sqlite keeps NaN as NULL.
+
+    Raises:
+        InputError: a value is of another kind: sqlite keeps any in any column.
+    """
+    for name, kind, value in zip(_COLUMNS, _KINDS, row, strict=True):
+        if not isinstance(value, _ACCEPTED[kind]):
+            wanted = "text" if kind == "str" else "a whole number" if kind == "int" else "a number"
+            raise InputError(
+                f"{path}: {name}: got {_shown(value)}; expected {wanted}: the database is damaged, make the runs again"
+            )
     values: list[Any] = [float("nan") if value is None else value for value in row]
     return Outcome(*values)
 
