@@ -310,3 +310,22 @@ def test_a_file_compressed_and_cut_is_read_to_the_cut(tmp_path):
         "run/run.mcap.zstd: the compressed file breaks off or is damaged; what came before was read"
     )
     assert total(bag) > 1000
+
+
+@pytest.mark.parametrize("table", ["topics", "messages"])
+@pytest.mark.parametrize("kept", ["STORED", "VIRTUAL"])
+def test_computed_columns_are_refused_before_they_are_computed(tmp_path, table, kept):
+    import sqlite3
+
+    columns = {
+        "topics": "id INTEGER PRIMARY KEY, type, serialization_format, name",
+        "messages": "id INTEGER PRIMARY KEY, topic_id, timestamp, data",
+    }
+    columns[table] += f" GENERATED ALWAYS AS (printf('%.*c', 1000, 'x')) {kept}"
+    connection = sqlite3.connect(tmp_path / "run.db3")
+    for name, inside in columns.items():
+        connection.execute(f"CREATE TABLE {name} ({inside})")
+    connection.commit()
+    connection.close()
+    with pytest.raises(InputError, match=f"of table {table} is computed; expected one that a recorder wrote"):
+        read_bag(tmp_path / "run.db3", "run.db3")

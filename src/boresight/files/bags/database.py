@@ -11,6 +11,7 @@ from tempfile import TemporaryDirectory
 
 from boresight.errors import InputError
 from boresight.files.bags.tape import LARGEST_MESSAGE, Tape
+from boresight.files.problems import printable
 
 _BESIDE = ("-wal", "-journal")
 """What a recorder that died leaves beside its database: without it the last messages are missing."""
@@ -18,6 +19,7 @@ _BESIDE = ("-wal", "-journal")
 _LOWEST, _FARTHEST_LEAP = -(2**62), 2**40
 _SMALLEST_ROW = 8
 """Bytes of a file that a row takes at least."""
+_COMPUTED = (2, 3)
 _TABLES = "SELECT name, type, sql FROM sqlite_master WHERE name IN ('topics', 'messages')"
 
 
@@ -67,9 +69,20 @@ def _topics(connection: sqlite3.Connection, name: str, tape: Tape) -> dict[objec
     """Returns the topics by the numbers that messages have for them, and announces them."""
     tables = {row[0]: row for row in connection.execute(_TABLES)}
     # A view or a virtual table could compute for ever.
-    plain = [row for row in tables.values() if row[1] == "table" and "VIRTUAL" not in str(row[2]).upper()]
+    plain = [
+        row for row in tables.values() if row[1] == "table" and not str(row[2]).upper().startswith("CREATE VIRTUAL")
+    ]
     if len(plain) != 2:
         raise InputError(f"{name}: this database is not a ROS 2 bag; expected the tables topics and messages")
+    for table in tables:
+        # Hidden columns of these kinds are computed from others, to any length.
+        computed = [row[1] for row in connection.execute(f"PRAGMA table_xinfo({table})") if row[6] in _COMPUTED]
+        if computed:
+            raise InputError(
+                printable(
+                    f"{name}: column {computed[0]} of table {table} is computed; expected one that a recorder wrote"
+                )
+            )
     topics: dict[object, str] = {}
     for number, topic, kind, encoding in connection.execute("SELECT id, name, type, serialization_format FROM topics"):
         topics[number] = str(topic)
