@@ -152,3 +152,12 @@ def test_numbers_of_other_types_are_read_as_they_are_written(folder, kind):
     short = pa.array([round(value, 3) for value in rows["range"].to_pylist()]).cast(kind)
     found = load(folder, rows.set_column(rows.column_names.index("range"), "range", short))
     np.testing.assert_array_equal(found.readings.values[:, 0], np.round(rows["range"].to_numpy(), 3))
+
+
+def test_text_that_is_not_utf8_is_told(folder):
+    rows = table()
+    raw = pa.array([b"\xff" + word.encode() for word in rows["target"].to_pylist()], pa.binary())
+    text = pa.Array.from_buffers(pa.string(), len(raw), raw.buffers())
+    pq.write_table(rows.set_column(rows.schema.get_field_index("target"), "target", text), folder / "rows.parquet")
+    with pytest.raises(InputError, match="it holds text that is not UTF-8; write it again"):
+        load_campaign(folder / "campaign.yaml")

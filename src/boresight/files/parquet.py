@@ -65,6 +65,8 @@ def _rows(source: OpenSource, limit_mib: int) -> Iterator[Row]:
         batches = file.iter_batches(batch_size=_BATCH_ROWS, use_threads=False)
         rows = (cells for batch in batches for cells in zip(*map(_cells, batch.columns), strict=True))
         yield from ((line, list(cells)) for line, cells in enumerate(rows, 2))
+    except UnicodeDecodeError:
+        raise refused("it holds text that is not UTF-8; write it again") from None
     except (pa.ArrowException, OSError) as error:
         said = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise refused(f"this is no Parquet file, or a damaged one ({said})") from None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, Literal
 
 _PIECE = 2**20
 
@@ -47,28 +47,35 @@ def _in_pieces(data: bytes, compression: str, limit: int) -> bytes:
     return bytes(whole)
 
 
-def inflate_file(source: BinaryIO, target: BinaryIO, limit: int) -> bool:
-    """Returns whether a zstd file was inflated into another one to its end.
+Inflated = Literal["whole", "broken", "too large"]
+"""How far a file was inflated."""
+
+
+def inflate_file(source: BinaryIO, target: BinaryIO, limit: int) -> Inflated:
+    """Returns how far a zstd file was inflated into another one.
 
     Args:
         source: the compressed file.
         target: where the content goes.
         limit: bytes beyond which nothing more is written.
+
+    Raises:
+        OSError: there is no room for it.
     """
     stream, written = _DECOMPRESSORS["zstd"](), 0
-    try:
-        while written < limit:
-            fed = source.read(_PIECE) if stream.needs_input else b""
-            if stream.needs_input and not fed:
-                return False
+    while written < limit:
+        fed = source.read(_PIECE) if stream.needs_input else b""
+        if stream.needs_input and not fed:
+            return "broken"
+        try:
             piece = stream.decompress(fed, min(_PIECE * 8, limit - written))
-            target.write(piece)
-            written += len(piece)
-            if stream.eof:
-                return True
-    except Exception:
-        return False
-    return False
+        except Exception:  # each library has its own
+            return "broken"
+        target.write(piece)
+        written += len(piece)
+        if stream.eof:
+            return "whole"
+    return "too large"
 
 
 def _zstd() -> Any:

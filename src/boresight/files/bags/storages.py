@@ -5,8 +5,8 @@ from __future__ import annotations
 import hashlib
 import re
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import Any
+from tempfile import TemporaryDirectory, gettempdir
+from typing import Any, BinaryIO
 
 from boresight.errors import InputError
 from boresight.files.bags.database import read_database
@@ -18,7 +18,10 @@ from boresight.files.problems import printable
 from boresight.files.signatures import LENGTH, MCAP, ROS1, SQLITE, ZSTD, signature_of
 
 SUFFIXES = (".mcap", ".db3", ".mcap.zstd", ".db3.zstd")
-LARGEST_INFLATED = 64 * 2**30
+LARGEST_INFLATED, LARGEST_RATIO, ALWAYS = 64 * 2**30, 200, 256 * 2**20
+"""Bytes that a compressed file may unpack to at most, times its own size where that is more than a few; recordings of
+sensors shrink to a half or a tenth."""
+
 _METADATA = "metadata.yaml"
 
 
@@ -71,21 +74,44 @@ def read_storage(path: Path, name: str, tape: Tape) -> None:
         if beginning.startswith(SQLITE):
             return read_database(path, name, tape)
         if beginning.startswith(ZSTD):
-            with TemporaryDirectory() as folder:
-                inflated = Path(folder) / path.stem
-                with open(inflated, "wb") as target:
-                    if not inflate_file(file, target, LARGEST_INFLATED):
-                        tape.lose(f"{name}: the compressed file breaks off or is damaged; what came before was read")
-                with open(inflated, "rb") as again:
-                    if again.read(4) == ZSTD:
-                        raise InputError(f"{name}: the file is compressed twice")
-                return read_storage(inflated, name, tape)
+            return _read_compressed(file, path, name, tape)
     wanted = f"expected a ROS 2 bag, whose files end in {' or '.join(SUFFIXES[:2])}"
     found = signature_of(beginning, name)
     if found is not None:
         raise InputError(printable(f"{name}: this is {found.kind}; {wanted}: {found.mend}"))
     kind = "is empty" if not beginning else "is neither MCAP nor SQLite"
     raise InputError(f"{name}: the file {kind}; {wanted}")
+
+
+def _read_compressed(file: BinaryIO, path: Path, name: str, tape: Tape) -> None:
+    """Gives the tape what a compressed file holds, unpacked in the temporary folder.
+
+    Raises:
+        InputError: there is no room for it, or it unpacks to far more than a recording does.
+    """
+    size = path.stat().st_size
+    limit = min(LARGEST_INFLATED, max(ALWAYS, LARGEST_RATIO * size))
+    with TemporaryDirectory() as folder:
+        inflated = Path(folder) / path.stem
+        try:
+            with open(inflated, "wb") as target:
+                found = inflate_file(file, target, limit)
+        except OSError as error:
+            raise InputError(
+                f"{name}: it cannot be unpacked in {gettempdir()}: {error.strerror or error}; make room there, or name "
+                "another folder in TMPDIR"
+            ) from None
+        if found == "too large":
+            raise InputError(
+                f"{name}: it unpacks to more than {limit / 2**20:,.0f} MiB, {limit / max(size, 1):,.0f} times its size "
+                "and more than recordings do; if it is right, unpack it by hand: zstd -d"
+            )
+        if found == "broken":
+            tape.lose(f"{name}: the compressed file breaks off or is damaged; what came before was read")
+        with open(inflated, "rb") as again:
+            if again.read(4) == ZSTD:
+                raise InputError(f"{name}: the file is compressed twice")
+        read_storage(inflated, name, tape)
 
 
 def digest(files: list[Path]) -> str:
