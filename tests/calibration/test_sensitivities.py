@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 from rehearsed import measured, ranger_cell, usual_freedoms
 
+from boresight.arm import catalogue
 from boresight.calibration.complete_model import complete_model
 from boresight.calibration.noise_size import noise_size
 from boresight.calibration.problem import Problem
 from boresight.calibration.robust import fit
-from boresight.calibration.sensitivities import sensitivities, sensitivities_in_words
+from boresight.calibration.sensitivities import Sensitivity, sensitivities, sensitivities_in_words
 from boresight.inference import spread_configurations
+from boresight.sensing import Cell, Distances
 
 CELL = ranger_cell(planes=1)
 JOINTS = spread_configurations(CELL, 200)
@@ -18,7 +20,7 @@ JOINTS = spread_configurations(CELL, 200)
 def found(truth=CELL, **stated):
     freedoms = usual_freedoms(CELL)
     best = fit(Problem(CELL, measured(CELL, truth, rows=100), freedoms), np.zeros(len(freedoms)))
-    return best, sensitivities(best, complete_model(best, stated, noise_size(best)), JOINTS, 1e-4)
+    return best, sensitivities(best, complete_model(best, stated, noise_size(best)), JOINTS, (1e-4, 1e-4))
 
 
 def test_the_only_planes_offset_is_told_and_moves_the_tool_by_what_it_says():
@@ -46,4 +48,25 @@ def test_the_sentence_says_what_to_state():
 
 def test_a_result_that_claims_little_assumes_nothing_of_weight():
     best, _ = found()
-    assert sensitivities(best, complete_model(best, {}, noise_size(best)), JOINTS, 10.0) == ()
+    assert sensitivities(best, complete_model(best, {}, noise_size(best)), JOINTS, (10.0, 10.0)) == ()
+
+
+def test_the_unit_of_length_of_positions_is_told_though_the_base_is_not_known():
+    """A draw wire to unknown points, or distances between positions: nothing absolute is determined."""
+    cell = Cell(catalogue.load("space-arm"), Distances(1e-4))
+    freedoms = usual_freedoms(cell)
+    best = fit(Problem(cell, measured(cell, rows=60), freedoms), np.zeros(len(freedoms)))
+    known = complete_model(best, {}, noise_size(best))
+    (told,) = [each for each in sensitivities(best, known, JOINTS, (np.inf, 1e-4)) if each.effect == "sensor.scale"]
+    assert told.shift_m > 1e-4
+    words = sensitivities_in_words((told,))[0]
+    assert "Assumes that `sensor` reads without bias or scale error" in words
+    assert words.endswith("Measure it by a known length to be sure of it.")
+
+
+def test_slides_are_told_together():
+    slides = tuple(Sensitivity(f"{name}.gain", 1e-3, "1", shift, "") for name, shift in (("x", 2e-3), ("y", 1e-3)))
+    assert sensitivities_in_words(slides) == (
+        "Assumes that `x` and `y` travel exactly as far as they read, which no reading here can check: 0.1 % of their "
+        "unit of length would move the tool by 2.00 mm and 1.00 mm. Measure a known length to be sure of it.",
+    )

