@@ -228,6 +228,6 @@ def _slides_in_words(found: list[Sensitivity]) -> str:
         )
     )
     return (
-        f"Assumes that {names} {travel}, which no reading here can check: 0.1 % of {their} unit of length would move the "
-        f"tool by {moved}. Measure a known length to be sure of it."
+        f"Assumes that {names} {travel}, which no reading here can check: 0.1 % of {their} unit of length would move "
+        f"the tool by {moved}. Measure a known length to be sure of it."
     )
