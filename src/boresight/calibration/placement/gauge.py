@@ -76,7 +76,7 @@ def same_but_for_the_base(cells: list[Cell]) -> bool:
     """
     first = cells[0]
     planes = [plane for plane in first.targets.values() if isinstance(plane, Plane)]
-    if len(planes) != len(first.targets) or _independent(planes) == 3:
+    if not planes or len(planes) != len(first.targets) or _independent(planes) == 3:
         return False
     beams = np.array([[frame.matrix[:3, 2] for frame in cell.mounts.values()] for cell in cells])
     return bool((np.einsum("cmi,mi->cm", beams, beams[0]) > np.cos(SAME_RAD)).all())
