@@ -48,3 +48,21 @@ def campaign_with():
 @pytest.fixture
 def robot_with():
     return lambda *pairs: swapped(ROBOT, *pairs)
+
+
+@pytest.fixture
+def read(folder):
+    """Loads the campaign with these observations."""
+    return lambda text: folder.write(observations=text).load()
+
+
+@pytest.fixture
+def problems(folder):
+    """All that is wrong with these observations."""
+    return lambda text: folder.write(observations=text).problems()
+
+
+@pytest.fixture
+def problem(folder):
+    """The one thing that is wrong with these observations."""
+    return lambda text: folder.write(observations=text).problem()

@@ -10,16 +10,6 @@ KNOWN = {"j1": "angle", "slide": "length", "range": "length", "target": None, "t
 JOINTS = ("j1", "slide")
 
 
-@pytest.fixture
-def load(folder):
-    return lambda text: folder.write(observations=text).load()
-
-
-@pytest.fixture
-def refused(folder):
-    return lambda text: folder.write(observations=text).problem()
-
-
 @pytest.mark.parametrize(
     ("text", "note"),
     [
@@ -50,15 +40,15 @@ def refused(folder):
         ),
     ],
 )
-def test_what_is_unambiguous_is_read_and_said(load, text, note):
-    campaign = load(text)
+def test_what_is_unambiguous_is_read_and_said(read, text, note):
+    campaign = read(text)
     np.testing.assert_allclose(campaign.readings.joints, [[0.1, 0.2], [0.4, 0.5]], rtol=1e-12)
     np.testing.assert_allclose(campaign.readings.values, [[0.3], [0.6]], rtol=1e-12)
     assert f"observations.csv: {note}" in campaign.notes
 
 
-def test_a_file_as_it_should_be_is_said_nothing_of(load):
-    assert load("j1,j2,range\n0.1,0.2,0.3\n0.4,0.5,0.6\n").notes == ()
+def test_a_file_as_it_should_be_is_said_nothing_of(read):
+    assert read("j1,j2,range\n0.1,0.2,0.3\n0.4,0.5,0.6\n").notes == ()
 
 
 @pytest.mark.parametrize(
@@ -74,12 +64,12 @@ def test_a_file_as_it_should_be_is_said_nothing_of(load):
         ("j1,j2,range\n\u0661,0.2,0.3\n", "j1: got '\u0661'; expected a number"),
     ],
 )
-def test_what_could_mean_two_things_is_refused_in_a_sentence(refused, text, told):
-    assert told in refused(text)
+def test_what_could_mean_two_things_is_refused_in_a_sentence(problem, text, told):
+    assert told in problem(text)
 
 
-def test_rows_keep_their_lines_whatever_separates_them(refused):
-    assert "observations.csv, line 4: 2 cells; expected 3" in refused("# from a logger\nj1;j2;range\n1;2;3\n1;2\n")
+def test_rows_keep_their_lines_whatever_separates_them(problem):
+    assert "observations.csv, line 4: 2 cells; expected 3" in problem("# from a logger\nj1;j2;range\n1;2;3\n1;2\n")
 
 
 def test_a_time_is_known_by_its_usual_names():

@@ -13,21 +13,6 @@ HEADER = "j1,j2,range\n"
 
 
 @pytest.fixture
-def read(folder):
-    return lambda text: folder.write(observations=text).load()
-
-
-@pytest.fixture
-def problems(folder):
-    return lambda text: folder.write(observations=text).problems()
-
-
-@pytest.fixture
-def problem(folder):
-    return lambda text: folder.write(observations=text).problem()
-
-
-@pytest.fixture
 def two_targets(campaign_with):
     deck = "deck: {type: plane, normal: [0, 1, 4.6], offset: -0.69}"
     return campaign_with((deck, f"{deck}\n  wall: {{type: plane, normal: [1, 0, 0], offset: -2}}"))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from boresight.errors import did_you_mean
@@ -112,23 +112,31 @@ def read_columns(
 def clashes(cell: Cell) -> list[str]:
     """Returns the joints that are called as a column of a sensor's, or of its certainty, is."""
     values = [column for sensor in cell.sensors.values() for column in sensor.columns]
-    spread = [f"std_{column}" for column in values if column not in QUATERNION]
-    meant = {*values, *map(_other_name, values), *spread, "std", STD_ANGLE, "repeats", *KEYS, *IGNORED}
+    meant = {*values, *map(_other_name, values), STD_ANGLE, *_optional(cell, values)}
     return [name for name in cell.arm.joint_names if name in meant]
 
 
 def known_columns(cell: Cell) -> dict[str, Quantity | None]:
     """Returns the names that columns of a cell's observations may have, and what each measures."""
     values = dict.fromkeys(column for sensor in cell.sensors.values() for column in sensor.columns)
-    lengths = [column for column in values if column not in QUATERNION]
     names: dict[str, Quantity | None] = {
         joint.name: "angle" if joint.type == "revolute" else "length" for joint in cell.arm.driven
     }
     names |= {name: None if name in QUATERNION else "length" for name in (*values, *map(_other_name, values))}
-    names |= dict.fromkeys(("std", *(f"std_{column}" for column in lengths)), "length")
-    if any(isinstance(sensor, Pose) for sensor in cell.sensors.values()):
-        names[STD_ANGLE] = "angle"
-    return {**names, **dict.fromkeys((*KEYS, "repeats", *IGNORED))}
+    return {**names, **_optional(cell, values)}
+
+
+def _optional(cell: Cell, values: Iterable[str]) -> dict[str, Quantity | None]:
+    """Returns the columns that may stand beside those of joints and values, and what each measures."""
+    has_pose = any(isinstance(sensor, Pose) for sensor in cell.sensors.values())
+    lengths = ("std", *(f"std_{column}" for column in values if column not in QUATERNION))
+    angles: dict[str, Quantity | None] = {STD_ANGLE: "angle"} if has_pose else {}
+    return {
+        **dict.fromkeys(KEYS),
+        **dict.fromkeys(lengths, "length"),
+        **angles,
+        **dict.fromkeys(("repeats", *IGNORED)),
+    }
 
 
 def _other_name(column: str) -> str:
@@ -159,7 +167,7 @@ def _values(cell: Cell, sensor: Sensor, at: dict[str, int], place: str, problems
     """The sensor's columns, by the names that this file gives them."""
     chosen, taken = [], {column for each in cell.sensors.values() if each is not sensor for column in each.columns}
     for column in sensor.columns:
-        other = OTHER_NAMES.get(column, column)
+        other = _other_name(column)
         if column != other and column in at and other in at and other not in taken:
             problems.add(f"{place}there are columns {column} and {other}, which mean the same; expected one of them")
         chosen.append(other if column not in at and other in at else column)
@@ -189,11 +197,8 @@ def _check_names(
     problems: Problems,
 ) -> None:
     joints = cell.arm.joint_names
-    lengths = [value for value in known_values if value not in QUATERNION]
-    has_pose = any(isinstance(sensor, Pose) for sensor in cell.sensors.values())
-    optional = ("std", *(f"std_{value}" for value in lengths), *((STD_ANGLE,) if has_pose else ()), "repeats", *IGNORED)
-    optional = (*KEYS, *optional)
-    other_names = (OTHER_NAMES.get(value, value) for value in known_values)
+    optional = _optional(cell, known_values)
+    other_names = map(_other_name, known_values)
     # A pose's uncertainty may stand beside its quaternion where only its position is used.
     known = dict.fromkeys((*joints, *known_values, *other_names, *optional, STD_ANGLE))
     counts, first = Counter(header), {name: column for column, name in reversed([*enumerate(header, start=1)])}
@@ -215,7 +220,7 @@ def _check_names(
     if unknown:
         near = did_you_mean(unknown[0][:60], known)
         plural = "s" if len(unknown) > 1 else ""
-        others = f"{listed((*joints, *known_values))} and, if wanted, {listed(dict.fromkeys(optional))}"
+        others = f"{listed((*joints, *known_values))} and, if wanted, {listed(optional)}"
         problems.add(
             f"{place}unknown column{plural} {listed(map(shown, unknown))}{near}{f' and {none}' if missing else ''}; "
             f"expected columns {others}"

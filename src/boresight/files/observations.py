@@ -86,13 +86,8 @@ def read_observations(
         ours, translation = in_house_words(sheet, cell.arm.joints, units)
         named = with_known_names(ours, known_columns(cell), cell.arm.joint_names, units)
         found = observations_of(named, cell, units, need_values=need_values)
-    notes = (*([described(translation)] if translation else []), *_sentence(named.notes))
-    return replace(found, sha256=source.sha256, notes=tuple(printable(f"{name}: {note}") for note in notes))
-
-
-def _sentence(notes: list[str]) -> list[str]:
-    """Returns what was noted of a file's form as one sentence, or none."""
-    return [f"{'; '.join(dict.fromkeys(notes))}."] if notes else []
+    notes = (*([f"{name}: {described(translation)}"] if translation else []), *named.form)
+    return replace(found, sha256=source.sha256, notes=tuple(map(printable, notes)))
 
 
 def observations_of(sheet: Sheet, cell: Cell, units: Units, *, need_values: bool = True) -> Observations:

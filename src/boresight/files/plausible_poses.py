@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from boresight.arm import Arm
+from boresight.files.plausible_units import fits_as_degrees
 from boresight.files.problems import Problems
 from boresight.units import Units
 
@@ -23,10 +24,8 @@ def check_joints(
     if units.angle != "rad" or not turning.any():
         return
     limits, values = arm.limits[turning], joints[:, turning]
-    beyond = float(np.max(np.maximum(limits[:, 0] - values, values - limits[:, 1])))
-    degrees = np.radians(values)
-    within = bool(np.all((degrees >= limits[:, 0]) & (degrees <= limits[:, 1])))
-    if (beyond > math.pi and within) or np.max(np.abs(values)) > 4.0 * math.pi > np.max(np.abs(degrees)):
+    largest = float(np.max(np.abs(values)))
+    if fits_as_degrees(values, limits) or largest > 4.0 * math.pi > math.radians(largest):
         worst = np.unravel_index(int(np.argmax(np.abs(values))), values.shape)
         joint = np.array(arm.joint_names)[turning][worst[1]]
         problems.add(

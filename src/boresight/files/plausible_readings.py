@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
-from boresight.files.plausible_units import SMALLEST_ARM_M, reach_of
+from boresight.files.plausible_units import SMALLEST_ARM_M
 from boresight.geometry import Plane
 from boresight.sensing import Cell, DrawWire, LaserRanger, PlaneContact, Pose, Position, Readings
 from boresight.units import Units
@@ -40,11 +40,14 @@ FITTING = 0.1
 """Joints are in radians where nominal errors fall to this share by reading them so."""
 
 
-def readings_fault(cell: Cell, readings: Readings, unknown: frozenset[str], units: Units, robot: str) -> str | None:
+def readings_fault(
+    cell: Cell, reach: float, readings: Readings, unknown: frozenset[str], units: Units, robot: str
+) -> str | None:
     """Returns what is wrong where readings cannot be meant in their units, a sentence that begins with the columns.
 
     Args:
         cell: the nominal cell [m, rad], unknown frames at neutral values.
+        reach: of its arm [m].
         readings: of one file [m, rad].
         unknown: parameters of frames that nobody has measured.
         units: that the file was read in.
@@ -54,11 +57,12 @@ def readings_fault(cell: Cell, readings: Readings, unknown: frozenset[str], unit
     if not readings.measured:
         return None
     with np.errstate(all="ignore"):
-        return next(_faults(cell, readings.chosen(rows), unknown, units, robot), None)
+        return next(_faults(cell, max(reach, SMALLEST_ARM_M), readings.chosen(rows), unknown, units, robot), None)
 
 
-def _faults(cell: Cell, readings: Readings, unknown: frozenset[str], units: Units, robot: str) -> Iterator[str]:
-    reach = max(reach_of(cell), SMALLEST_ARM_M)
+def _faults(
+    cell: Cell, reach: float, readings: Readings, unknown: frozenset[str], units: Units, robot: str
+) -> Iterator[str]:
     for place in np.unique(readings.target).tolist():
         aim, own = cell.aims[place], readings.chosen(readings.target == place)
         sensor = cell.sensors[aim.sensor]

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 
 from boresight.files.problems import Problems
 from boresight.sensing import Cell
@@ -51,18 +52,18 @@ class Robot:
     units: Units | None
 
 
-def check_arm(cell: Cell, robot: Robot, campaign: str, problems: Problems) -> None:
+def check_arm(cell: Cell, reach: float, robot: Robot, campaign: str, problems: Problems) -> None:
     """Adds a fault where the arm's or the tool's numbers cannot be meant in their units.
 
     Args:
         cell: the nominal cell [m, rad].
+        reach: of its arm [m], `reach_of`.
         robot: its file.
         campaign: what the user calls the campaign's file.
         problems: where faults are added.
     """
-    angle, length = _angle_fault(cell, robot), _length_fault(cell, robot)
+    angle, length = _angle_fault(cell, robot), _length_fault(cell, reach, robot)
     problems.extend(fault for fault in (angle, length) if fault is not None)
-    reach = reach_of(cell)
     for name, frame in cell.mounts.items() if length is None else ():
         size = math.hypot(*frame.xyz)
         if size > max(TOOL * reach, 1.0):
@@ -84,6 +85,19 @@ def reach_of(cell: Cell) -> float:
         return float(np.max(np.linalg.norm(cell.arm.chain.poses(joints)[:, :3, 3], axis=1), initial=0.0))
 
 
+def fits_as_degrees(joints: Float[np.ndarray, "rows joints"], limits: Float[np.ndarray, "joints 2"]) -> bool:
+    """Returns whether turning joints [rad] far beyond their limits would all be within them were they degrees."""
+    degrees = np.radians(joints)
+    return bool(beyond_limits(joints, limits).max() > math.pi and beyond_limits(degrees, limits).max() <= 0.0)
+
+
+def beyond_limits(
+    joints: Float[np.ndarray, "rows joints"], limits: Float[np.ndarray, "joints 2"]
+) -> Float[np.ndarray, "rows joints"]:
+    """Returns how far readings are beyond their limits [rad or m]; negative within."""
+    return np.maximum(limits[:, 0] - joints, joints - limits[:, 1])
+
+
 def _angle_fault(cell: Cell, robot: Robot) -> str | None:
     """Returns what is wrong with the first angle that cannot be meant in its unit."""
     units = robot.units or Units()
@@ -102,9 +116,9 @@ def _angle_fault(cell: Cell, robot: Robot) -> str | None:
     return None
 
 
-def _length_fault(cell: Cell, robot: Robot) -> str | None:
+def _length_fault(cell: Cell, reach: float, robot: Robot) -> str | None:
     """Returns what is wrong with the arm's lengths, if they cannot be meant in their unit."""
-    units, reach = robot.units or Units(), reach_of(cell)
+    units = robot.units or Units()
     links = dict(_links(cell))
     longest = max(links, key=lambda name: links[name])
     others = sum(links.values()) - links[longest]

@@ -118,7 +118,7 @@ def read_poses(path: Path | str, arm: Arm, units: Units) -> WantedPoses:
 
 def _notes(name: str, sheet: Sheet, others: tuple[str, ...], free: bool) -> tuple[str, ...]:
     """Returns how the file was read, where that is not plain, and what was not read."""
-    said = [f"{name}: {'; '.join(dict.fromkeys(sheet.notes))}."] if sheet.notes else []
+    said = [*sheet.form]
     if free:
         said.append(f"{name}: there are positions and no orientations, which are left free.")
     if others:

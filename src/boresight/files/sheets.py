@@ -36,6 +36,11 @@ class Sheet:
     rows: Iterator[Row]
     notes: list[str] = field(default_factory=list)
 
+    @property
+    def form(self) -> tuple[str, ...]:
+        """What was noted, as one sentence; none where the file is as it should be."""
+        return (f"{self.name}: {'; '.join(dict.fromkeys(self.notes))}.",) if self.notes else ()
+
 
 def csv_sheet(file: BinaryIO, name: str) -> Sheet:
     """Returns the rows of a CSV file in UTF-8; `#` begins a comment.

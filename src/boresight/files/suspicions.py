@@ -6,10 +6,10 @@ import math
 from collections import Counter
 
 import numpy as np
-from jaxtyping import Bool, Float
 
 from boresight.arm import Joint
 from boresight.errors import InputError
+from boresight.files.plausible_units import beyond_limits, fits_as_degrees
 from boresight.files.problems import printable
 from boresight.sensing import Cell, Readings
 from boresight.units import Units
@@ -78,7 +78,7 @@ def _wrong_angles(readings: Readings, cell: Cell, units: Units, name: str) -> li
         return []
     size = np.abs(readings.joints[:, turning]).max(axis=0)
     joint = np.array(cell.arm.joint_names)[turning][size.argmax()]
-    if units.angle == "rad" and _fits_as_degrees(readings, cell, turning):
+    if units.angle == "rad" and fits_as_degrees(readings.joints[:, turning], cell.arm.limits[turning]):
         raise InputError(
             printable(
                 f"{name}: joint {joint} reads up to {size.max():.4g}, too much for radians and within its limits as "
@@ -99,22 +99,8 @@ def _wrong_angles(readings: Readings, cell: Cell, units: Units, name: str) -> li
     return []
 
 
-def _fits_as_degrees(readings: Readings, cell: Cell, turning: Bool[np.ndarray, " joints"]) -> bool:
-    """Whether readings that are far beyond the limits would all be within them as degrees."""
-    limits, joints = cell.arm.limits[turning], readings.joints[:, turning]
-    as_degrees = np.radians(joints)
-    return bool(_excess(joints, limits).max() > math.pi and _excess(as_degrees, limits).max() <= 0.0)
-
-
-def _excess(
-    joints: Float[np.ndarray, "rows joints"], limits: Float[np.ndarray, "joints 2"]
-) -> Float[np.ndarray, "rows joints"]:
-    """How far readings are beyond their limits; negative within."""
-    return np.maximum(limits[:, 0] - joints, joints - limits[:, 1])
-
-
 def _beyond_limits(readings: Readings, cell: Cell, units: Units, name: str) -> list[str]:
-    excess = _excess(readings.joints, cell.arm.limits)
+    excess = beyond_limits(readings.joints, cell.arm.limits)
     rows, joints = excess.argmax(axis=0), range(len(cell.arm.driven))
     counts = (excess > 1e-9).sum(axis=0)  # a limit of 170 degrees does not survive the way to radians to the bit
     return [

@@ -5,6 +5,7 @@
 
 from boresight.geometry.frames import Frame as Frame
 from boresight.geometry.frames import inverse as inverse
+from boresight.geometry.frames import triple_of as triple_of
 from boresight.geometry.planes import Plane as Plane
 from boresight.geometry.points import Point as Point
 from boresight.geometry.quaternions import matrix_quaternion as matrix_quaternion

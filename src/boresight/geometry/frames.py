@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,12 @@ from jaxtyping import Float
 from boresight.geometry.rotations import matrix_rpy, rpy_matrix
 
 Triple = tuple[float, float, float]
+
+
+def triple_of(values: Iterable[float]) -> Triple:
+    """Returns three numbers as a tuple of plain ones."""
+    x, y, z = (float(value) for value in values)
+    return x, y, z
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,8 +34,7 @@ class Frame:
     @classmethod
     def of(cls, T_parent_child: Float[np.ndarray, "4 4"]) -> Frame:
         """Returns the frame of a homogeneous transform."""
-        x, y, z = (float(value) for value in T_parent_child[:3, 3])
-        return cls((x, y, z), matrix_rpy(T_parent_child[:3, :3]))
+        return cls(triple_of(T_parent_child[:3, 3]), matrix_rpy(T_parent_child[:3, :3]))
 
     @property
     def matrix(self) -> Float[np.ndarray, "4 4"]:

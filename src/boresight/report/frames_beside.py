@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from boresight.arm import Arm
-from boresight.geometry import Frame, inverse, rotation_angle, rpy_matrix
+from boresight.geometry import Frame, inverse, rotation_angle, rpy_matrix, triple_of
 from boresight.report.converting import configurations
 from boresight.units import in_millimetres
 
@@ -38,7 +38,7 @@ def estimated_frames(document: Mapping[str, Any]) -> tuple[EstimatedFrame, ...]:
     for name, place in document["frames"].items():
         own = {part: changes[f"{name}.{part}"] for part in (*_AXES, *_TURNS) if f"{name}.{part}" in changes}
         if any(change is None or change != 0.0 for change in own.values()):
-            identified = Frame(_triple(place["xyz"]), _triple(place["rpy"]))
+            identified = Frame(triple_of(place["xyz"]), triple_of(place["rpy"]))
             found.append(EstimatedFrame(name, identified, _stated(identified, own)))
     return tuple(found)
 
@@ -80,10 +80,4 @@ def _stated(identified: Frame, changes: Mapping[str, float | None]) -> Frame | N
     T = np.eye(4)
     T[:3, :3] = rpy_matrix((turn[0], turn[1], turn[2]))
     before = Frame.of(identified.matrix @ inverse(T))
-    x, y, z = (float(value) for value in np.array(identified.xyz) - shift)
-    return Frame((x, y, z), before.rpy)
-
-
-def _triple(values: Any) -> tuple[float, float, float]:
-    x, y, z = (float(value) for value in values)
-    return x, y, z
+    return Frame(triple_of(np.array(identified.xyz) - shift), before.rpy)

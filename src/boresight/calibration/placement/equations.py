@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
+from boresight.calibration.placement.flanges import flanges
 from boresight.geometry import Plane, Point, inverse
 from boresight.sensing import Cell, Readings
 from boresight.sensing.laser_ranger import LaserRanger
@@ -66,13 +67,13 @@ def equations_of(cell: Cell, readings: Readings) -> Equations | None:
         cell: its base and mounts do not count.
         readings: measured values.
     """
-    mounts = list(cell.mounts)
-    parts = []
+    mounts, parts = list(cell.mounts), []
+    in_base = inverse(cell.base.matrix) @ flanges(cell, readings)
     for place in np.unique(readings.target).tolist():
         aim, rows = cell.aims[place], np.flatnonzero(readings.target == place)
         sensor, target = cell.sensors[aim.sensor], None if aim.target is None else cell.targets[aim.target]
         values = readings.values[rows]
-        flange = _flange(cell, aim.mount, readings.joints[rows])
+        flange = in_base[rows]
         if isinstance(sensor, LaserRanger) and isinstance(target, Plane):
             lengths = (values[:, 0] - sensor.bias) / (1.0 + sensor.scale)
             part = _on_plane(flange, target, lengths)
@@ -94,12 +95,6 @@ def equations_of(cell: Cell, readings: Readings) -> Equations | None:
 
 def _joined(parts: list[dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-
-
-def _flange(cell: Cell, mount: str, joints: np.ndarray) -> Float[np.ndarray, "rows 4 4"]:
-    """Returns `T_base_flange`."""
-    poses = cell.chains[mount].poses(joints)
-    return np.asarray(inverse(cell.base.matrix) @ poses @ inverse(cell.mounts[mount].matrix))
 
 
 def _on_plane(flange: np.ndarray, plane: Plane, lengths: np.ndarray) -> dict[str, np.ndarray]:

@@ -11,9 +11,10 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool
 
-from boresight.geometry import Frame, Point, inverse
+from boresight.calibration.placement.flanges import flanges
+from boresight.geometry import Frame, Point, triple_of
 from boresight.sensing import Cell, PointContact, Readings
 from boresight.sensing.cell import MOUNT
 
@@ -45,7 +46,7 @@ def placed_by_contacts(cell: Cell, readings: Readings, points: tuple[str, ...], 
         mounts: those whose origin is unknown.
     """
     some = readings.chosen(np.flatnonzero(rows_at(cell, readings, points)))
-    flange = _flange(cell, some)
+    flange = flanges(cell, some)
     columns = {name: 3 * place for place, name in enumerate((*points, *mounts))}
     A, b = np.zeros((len(some), 3, 3 * len(columns))), np.array(flange[:, :3, 3])
     for row, place in enumerate(some.target):
@@ -56,22 +57,10 @@ def placed_by_contacts(cell: Cell, readings: Readings, points: tuple[str, ...], 
         else:
             b[row] += flange[row, :3, :3] @ cell.mounts[aim.mount].xyz
     found = np.linalg.lstsq(A.reshape(-1, A.shape[2]), b.ravel(), rcond=1e-6)[0].reshape(-1, 3)
-    at = {name: _triple(found[place // 3]) for name, place in columns.items()}
+    at = {name: triple_of(found[place // 3]) for name, place in columns.items()}
     moved = {name: Frame(at[name], frame.rpy) if name in mounts else frame for name, frame in cell.mounts.items()}
     return replace(
         cell,
         targets={name: Point(at[name]) if name in points else target for name, target in cell.targets.items()},
         mount=moved if isinstance(cell.mount, Mapping) else moved[MOUNT],
     )
-
-
-def _flange(cell: Cell, readings: Readings) -> Float[np.ndarray, "rows 4 4"]:
-    """Returns `T_world_flange` of each row."""
-    poses = cell.poses(readings.joints, target=readings.target)
-    mounts = np.array([inverse(cell.mounts[cell.aims[place].mount].matrix) for place in readings.target])
-    return np.asarray(poses @ mounts.reshape(-1, 4, 4))
-
-
-def _triple(values: Float[np.ndarray, "3"]) -> tuple[float, float, float]:
-    x, y, z = (float(value) for value in values)
-    return x, y, z
