@@ -68,5 +68,5 @@ def test_readings_that_no_placement_explains_are_an_error():
     truth = ranger_cell(planes=1)
     readings = measured(truth, rows=30)
     away = replace(truth, targets={"deck": Plane.of((0.0, 0.0, 1.0), 1e6)})
-    with pytest.raises(InputError, match=r"no placement of mount\.x.* explains the readings"):
+    with pytest.raises(InputError, match=r"no placement of `mount`.* explains the readings"):
         find_frames(away, readings, frozenset(f"mount.{a}" for a in "xyz"), 0)

@@ -91,9 +91,10 @@ def _placed(problem: Problem, campaign: Campaign, seed: int) -> Problem | None:
     if not unknown - set(problem.cell.offsets):
         return problem
     try:
-        return replace(problem, cell=find_frames(problem.cell, problem.readings, unknown, seed, campaign.priors).cell)
+        placed = find_frames(problem.cell, problem.readings, unknown, seed, campaign.priors, quick=True)
     except InputError:
         return None
+    return replace(problem, cell=placed.cell)
 
 
 def _typical(problem: Problem) -> float:

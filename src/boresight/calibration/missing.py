@@ -10,6 +10,7 @@ from boresight.calibration.encoder_noise import find_encoder_noise
 from boresight.calibration.explanation import Explanation, explanation_in_words
 from boresight.calibration.explanations import explain
 from boresight.calibration.freedom import usual_within
+from boresight.calibration.gross import beyond_help
 from boresight.calibration.jumps import Jump, find_jumps
 from boresight.calibration.robust import Fit
 from boresight.inference import Accuracy
@@ -61,7 +62,7 @@ def find_missing(fit: Fit, campaign: Campaign, nominal: Cell, accuracy: Accuracy
     if jumps and found and found[0].effect.startswith("step"):
         explanations = ()
     explained = tuple(explanation_in_words(each, _line(each, campaign, nominal)) for each in explanations)
-    encoder = find_encoder_noise(fit)
+    encoder = None if beyond_help(fit) else find_encoder_noise(fit)
     noise = () if encoder is None or constant else (encoder.words,)
     return Missing(explanations, explained, (), jumps, (*explained, *noise, *(jump.words for jump in jumps)))
 

@@ -1,7 +1,7 @@
 """Slips that no small correction mends, each made undone.
 
 A plane whose offset has the wrong sign, two targets exchanged, rows that name another target, a joint that counts the
-other way round, two joints exchanged, readings that stand one row too early or too late.
+other way round, two joints exchanged, readings that stand one row too early or too late, and those of `pose_slips`.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from boresight.calibration.pose_slips import pose_slips
 from boresight.calibration.problem import MISSED_M
 from boresight.geometry import Plane
 from boresight.inference import listed
@@ -59,6 +60,8 @@ def slips(cell: Cell, readings: Readings) -> Iterator[tuple[str, str, Cell, Read
             cell,
             replace(readings, joints=joints),
         )
+    for effect, words, changed in pose_slips(cell, readings):
+        yield effect, words, cell, changed
     for shift, word in ((1, "earlier"), (-1, "later")):
         joints = np.roll(readings.joints, shift, axis=0)
         yield (

@@ -198,7 +198,7 @@ def _interval(change: Improvement) -> str:
 def _noise_in_words(check: NoiseCheck, model_std: float, evidence: Evidence) -> str | None:
     """Returns what a person should know where residuals disagree with the stated noise."""
     test = f"chi-square {check.chi_square:.3g} where {check.freedom:.3g} is expected"
-    explained = bool(evidence.explanations or evidence.alternatives)
+    explained = bool(evidence.explanations or evidence.alternatives) or grossly_off(evidence.fit)
     if model_std > 0.0 and check.ratio > LOUD:
         suspects = [cause for cause, term in _SUSPECTS.items() if term not in evidence.beyond]
         may = "" if explained else f" {', '.join(suspects[:-1])} or {suspects[-1]} may explain it."

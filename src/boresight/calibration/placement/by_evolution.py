@@ -24,7 +24,7 @@ RUNS = 6
 """Independent runs; the search ends early when two agree."""
 
 
-def placed_by_evolution(cell: Cell, readings: Readings, names: tuple[str, ...], seed: int) -> Cell:
+def placed_by_evolution(cell: Cell, readings: Readings, names: tuple[str, ...], seed: int, runs: int = RUNS) -> Cell:
     """Returns the cell with its unknown numbers where the readings put them, geometry nominal.
 
     Args:
@@ -32,6 +32,7 @@ def placed_by_evolution(cell: Cell, readings: Readings, names: tuple[str, ...], 
         readings: measured values.
         names: the unknown parameters.
         seed: of the evolution.
+        runs: how many at most.
     """
     few = readings.chosen(np.unique(np.linspace(0, len(readings) - 1, min(ROWS, len(readings))).astype(int)))
     alike = replace(few, std=np.where(few.read, NOMINAL_STD_M, np.inf))
@@ -39,7 +40,7 @@ def placed_by_evolution(cell: Cell, readings: Readings, names: tuple[str, ...], 
     quantity = {parameter.name: parameter.quantity for parameter in cell.parameters}
     freedoms = tuple(Freedom(name, widths[quantity[name]], None) for name in names)
     best = None
-    for run in range(RUNS):
+    for run in range(runs):
         wide = Problem(cell, alike, freedoms)
         rough = evolve(
             wide.robust_cost,
