@@ -103,6 +103,14 @@ def test_a_plane_with_the_other_sign_is_told():
     assert alternatives(wrong, readings)[0].effect == "wall_x flipped"
 
 
+def test_offsets_of_two_planes_exchanged_are_told():
+    readings = measured(CELL, truth_of(CELL), 100, 1)
+    deck, wall = CELL.targets["deck"], CELL.targets["wall_x"]
+    exchanged = {"deck": Plane.of(deck.normal, wall.offset), "wall_x": Plane.of(wall.normal, deck.offset)}
+    found = alternatives(replace(CELL, targets={**CELL.targets, **exchanged}), readings)
+    assert found[0].effect == "offsets of deck and wall_x"
+
+
 def test_no_slip_is_told_of_rows_that_are_as_they_should_be():
     assert alternatives(CELL, measured(CELL, truth_of(CELL), 100, 1)) == ()
 

@@ -1,7 +1,8 @@
 """Slips that no small correction mends, each made undone.
 
-A plane whose offset has the wrong sign, two targets exchanged, rows that name another target, a joint that counts the
-other way round, two joints exchanged, readings that stand one row too early or too late, and those of `pose_slips`.
+A plane whose offset has the wrong sign or is another plane's, two targets exchanged, rows that name another target, a
+joint that counts the other way round, two joints exchanged, readings that stand one row too early or too late, and
+those of `pose_slips`.
 """
 
 from __future__ import annotations
@@ -40,6 +41,15 @@ def slips(cell: Cell, readings: Readings) -> Iterator[tuple[str, str, Cell, Read
                 replace(cell, targets={**cell.targets, **turned}),
                 readings,
             )
+    for first, second in itertools.combinations(planes, 2):
+        a, b = planes[first], planes[second]
+        offsets = {first: Plane.of(a.normal, b.offset), second: Plane.of(b.normal, a.offset)}
+        yield (
+            f"offsets of {first} and {second}",
+            f"The offsets of `{first}` and `{second}` are exchanged",
+            replace(cell, targets={**cell.targets, **offsets}),
+            readings,
+        )
     yield from _exchanged(cell, readings)
     for place, name in enumerate(cell.arm.joint_names):
         sign = np.where(np.arange(readings.joints.shape[1]) == place, -1.0, 1.0)
