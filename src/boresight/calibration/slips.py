@@ -41,12 +41,12 @@ def slips(cell: Cell, readings: Readings) -> Iterator[tuple[str, str, Cell, Read
                 replace(cell, targets={**cell.targets, **turned}),
                 readings,
             )
-    for first, second in itertools.combinations(planes, 2):
-        a, b = planes[first], planes[second]
-        offsets = {first: Plane.of(a.normal, b.offset), second: Plane.of(b.normal, a.offset)}
+    for one, other in itertools.combinations(planes, 2):
+        a, b = planes[one], planes[other]
+        offsets = {one: Plane.of(a.normal, b.offset), other: Plane.of(b.normal, a.offset)}
         yield (
-            f"offsets of {first} and {second}",
-            f"The offsets of `{first}` and `{second}` are exchanged",
+            f"offsets of {one} and {other}",
+            f"The offsets of `{one}` and `{other}` are exchanged",
             replace(cell, targets={**cell.targets, **offsets}),
             readings,
         )
