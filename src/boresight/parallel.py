@@ -38,6 +38,7 @@ def local_workers(count: int | None = None) -> Iterator[Executor]:
     parent even where that is killed, and leave Ctrl-C to it.
     """
     spawning = multiprocessing.get_context("spawn")
+    _have_silent_tracker()
     pool = ProcessPoolExecutor(worker_count(count), mp_context=spawning, initializer=_begin_worker)
     try:
         yield pool
@@ -86,12 +87,40 @@ def in_order(executor: Executor, function: Callable[[Task], Value], tasks: Seque
     return [found[place] for place in range(len(tasks))]
 
 
+def _have_silent_tracker() -> None:
+    """Starts the process that removes what a killed parent leaves: it does so, and need not tell the user."""
+    if os.name != "posix":
+        return
+    from multiprocessing import resource_tracker
+
+    before = os.environ.get("PYTHONWARNINGS")
+    os.environ["PYTHONWARNINGS"] = ",".join(filter(None, (before, "ignore:resource_tracker:UserWarning")))
+    try:
+        resource_tracker.ensure_running()
+    finally:
+        if before is None:
+            del os.environ["PYTHONWARNINGS"]
+        else:
+            os.environ["PYTHONWARNINGS"] = before
+
+
 def _begin_worker() -> None:
     """Leaves Ctrl-C to the parent, and ends when that is gone: a killed parent tells its workers nothing."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
     if parent is not None:
+        _end_by_signal_with(parent.sentinel)
         threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
+
+
+def _end_by_signal_with(pipe: int) -> None:
+    """Has Linux end this process when a pipe's other end closes, whatever it computes: a thread has to wait for it."""
+    with contextlib.suppress(ImportError, AttributeError, OSError):
+        import fcntl
+
+        fcntl.fcntl(pipe, fcntl.F_SETSIG, signal.SIGKILL)
+        fcntl.fcntl(pipe, fcntl.F_SETOWN, os.getpid())
+        fcntl.fcntl(pipe, fcntl.F_SETFL, fcntl.fcntl(pipe, fcntl.F_GETFL) | os.O_ASYNC)
 
 
 def _end_with(parent: multiprocessing.process.BaseProcess) -> None:

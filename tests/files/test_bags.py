@@ -261,3 +261,19 @@ def test_what_a_recorder_that_died_left_beside_its_database_is_taken_in(tmp_path
     bag = read_bag(left, "left")
     assert bag.topics["/joint_states"].count == 80
     assert {file.name: file.read_bytes() for file in left.iterdir()} == before
+
+
+def test_more_messages_than_a_file_of_its_size_holds_are_an_error(tmp_path, monkeypatch):
+    monkeypatch.setattr(tape, "ALWAYS", 5)
+    monkeypatch.setattr(tape, "BYTES_EACH", 10**6)
+    with pytest.raises(InputError, match="there are more than 5 messages"):
+        read_bag(script().write(tmp_path / "run"), "run")
+
+
+@pytest.mark.parametrize(
+    ("limit", "told"), [("MOST_TOPICS", "more than 1 topics"), ("LONGEST_TOPIC", "of more than 1 ch")]
+)
+def test_more_topics_than_a_robot_has_are_an_error(tmp_path, monkeypatch, limit, told):
+    monkeypatch.setattr(tape, limit, 1)
+    with pytest.raises(InputError, match=told):
+        read_bag(script().write(tmp_path / "run"), "run")

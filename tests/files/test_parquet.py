@@ -161,3 +161,10 @@ def test_text_that_is_not_utf8_is_told(folder):
     pq.write_table(rows.set_column(rows.schema.get_field_index("target"), "target", text), folder / "rows.parquet")
     with pytest.raises(InputError, match="it holds text that is not UTF-8; write it again"):
         load_campaign(folder / "campaign.yaml")
+
+
+def test_a_file_that_stands_for_many_times_its_size_is_refused(folder, monkeypatch):
+    monkeypatch.setattr("boresight.files.parquet.ALWAYS_MIB", 1)
+    same = pa.table({name: np.full(200_000, 0.5) for name in table().column_names})
+    with pytest.raises(InputError, match="times its size unpacked; expected at most 20 times"):
+        load(folder, same)

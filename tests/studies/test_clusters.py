@@ -97,3 +97,12 @@ def test_without_dask_it_is_told_how_to_install_it(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match=r"pip install 'boresight\[cluster\]'"):
         study(small_study(), tmp_path / "runs.sqlite", scheduler="tcp://localhost:8786")
+
+
+@pytest.mark.parametrize(
+    "address",
+    ["", "tcp://", "file:///etc/passwd", "tcp://host", "tcp://host:0", "tcp://host:99999", "x" * 5000, "a\udcff:1"],
+)
+def test_addresses_that_are_none_are_told_at_once(tmp_path, address):
+    with pytest.raises(InputError, match="expected an address such as tcp://host:8786"):
+        study(small_study(), tmp_path / "runs.sqlite", scheduler=address)

@@ -197,6 +197,8 @@ class _Linear:
         prior: precision of each parameter, 0 of a step.
         errors: (rows, channels) measured minus predicted over the standard deviations, 0 where there is none.
         std: (rows, channels) standard deviation of each value [m].
+        products: sums of the slopes' products. Sums over rows are NumPy's own loops: those of BLAS differ in the last
+            digits with its threads.
         count: how many of the parameters are steps.
         distinct: share of the values that repeat no other's configuration: what a model leaves there, they share.
     """
@@ -205,6 +207,7 @@ class _Linear:
     prior: Float[np.ndarray, "parameters"]
     errors: Float[np.ndarray, "rows channels"]
     std: Float[np.ndarray, "rows channels"]
+    products: Float[np.ndarray, "parameters parameters"]
     count: int = 0
     distinct: float = 1.0
 
@@ -216,7 +219,8 @@ class _Linear:
         std = np.where(np.isfinite(errors), std, np.inf)
         slopes = slopes_of(problem.model, fit.x, problem.readings) / std[:, :, None]
         distinct = float(np.mean(1.0 / problem.repeats)) if problem.model_std > 0.0 else 1.0
-        return cls(slopes, 1.0 / problem.prior_std**2, np.nan_to_num(-errors) / std, std, 0, distinct)
+        products = np.einsum("rcp,rcq->pq", slopes, slopes)
+        return cls(slopes, 1.0 / problem.prior_std**2, np.nan_to_num(-errors) / std, std, products, 0, distinct)
 
     def with_steps(self, blocks: list[_Block]) -> _Linear:
         """Returns the fit with a step on each of some blocks."""
@@ -224,7 +228,9 @@ class _Linear:
         for place, block in enumerate(blocks):
             steps[block.rows, block.series.channel, place] = 1.0 / self.std[block.rows, block.series.channel]
         slopes, prior = np.concatenate([self.slopes, steps], axis=2), np.append(self.prior, np.zeros(len(blocks)))
-        return _Linear(slopes, prior, self.errors, self.std, len(blocks), self.distinct)
+        crossed = np.einsum("rcp,rck->pk", self.slopes, steps)
+        products = np.block([[self.products, crossed], [crossed.T, np.einsum("rck,rcl->kl", steps, steps)]])
+        return _Linear(slopes, prior, self.errors, self.std, products, len(blocks), self.distinct)
 
     @cached_property
     def read(self) -> Bool[np.ndarray, "rows channels"]:
@@ -234,18 +240,16 @@ class _Linear:
     @cached_property
     def inverse(self) -> Float[np.ndarray, "parameters parameters"]:
         """Covariance of the parameters, were the standard deviations right."""
-        flat = self.slopes.reshape(-1, self.slopes.shape[2])
-        scale = 1.0 / np.sqrt(np.maximum(np.sum(flat**2, axis=0) + self.prior, 1e-300))
-        return (
-            scale[:, None] * np.linalg.pinv((flat * scale).T @ (flat * scale) + np.diag(self.prior * scale**2)) * scale
-        )
+        precision = self.products + np.diag(self.prior)
+        scale = 1.0 / np.sqrt(np.maximum(np.diag(precision), 1e-300))
+        return scale[:, None] * np.linalg.pinv(scale[:, None] * precision * scale) * scale
 
     @cached_property
     def solution(self) -> tuple[Float[np.ndarray, "parameters"], Float[np.ndarray, "rows channels"]]:
         """Where robust least squares leads: the parameters' changes, and the residuals clipped where they are gross."""
         moved, pulled = np.zeros(len(self.prior)), self.errors
         for _ in range(_ITERATIONS):
-            rest = self.errors - self.slopes @ moved
+            rest = self.errors - np.einsum("rcp,p->rc", self.slopes, moved)
             limit = _CLIPPED * _scale(rest[self.read])
             pulled = np.clip(rest, -limit, limit)
             moved = moved + self.inverse @ np.einsum("rcp,rc->p", self.slopes, pulled)
@@ -254,7 +258,7 @@ class _Linear:
     @cached_property
     def freedom(self) -> float:
         """Values less the parameters that they decide."""
-        decided = float(np.einsum("rcp,pq,rcq->", self.slopes, self.inverse, self.slopes, optimize=True))
+        decided = float(np.sum(self.products * self.inverse))
         return max(self.distinct * float(np.count_nonzero(self.read)) - decided, 1.0)
 
     @property
@@ -291,11 +295,12 @@ class _Linear:
         """Returns the size of a step over its standard deviation, were the stated ones right."""
         rows, channel = block.rows, block.series.channel
         weight = 1.0 / self.std[rows, channel]
-        shared = weight @ self.slopes[rows, channel]
-        power = float(weight @ weight - shared @ self.inverse @ shared)
-        if power <= _UNSEEN * float(weight @ weight):
+        shared = np.einsum("r,rp->p", weight, self.slopes[rows, channel])
+        whole = float(np.einsum("r,r->", weight, weight))
+        power = whole - float(np.einsum("p,pq,q->", shared, self.inverse, shared))
+        if power <= _UNSEEN * whole:
             return 0.0
-        return abs(float(weight @ pulled[rows, channel])) / np.sqrt(power)
+        return abs(float(np.einsum("r,r->", weight, pulled[rows, channel]))) / np.sqrt(power)
 
 
 def _scale(rest: Float[np.ndarray, "values"]) -> float:

@@ -17,8 +17,9 @@ from boresight.files.sources import OpenSource
 SUFFIXES = (".parquet", ".pq")
 
 _BATCH_ROWS = 16_384
-_LEAST_BYTES = 2
-"""What a number and the comma behind it take in CSV."""
+_NUMBER_BYTES = 8
+MOST_TIMES, ALWAYS_MIB = 20, 64
+"""A file may stand for so many times its size, as numbers, where that is more than a little: readings hardly shrink."""
 
 _INSTALL = "pip install 'boresight[parquet]', or export it as CSV"
 
@@ -56,15 +57,22 @@ def _rows(source: OpenSource, limit_mib: int) -> Iterator[Row]:
         # A word stays one word however many rows have it: a small file could name a large one a million times.
         words = [column.name for column in schema if _is_text(column.type)]
         file = pq.ParquetFile(source.file, metadata=metadata, read_dictionary=words)
-        size = max(_unpacked(metadata), metadata.num_rows * len(schema) * _LEAST_BYTES)
+        rows, columns = metadata.num_rows, len(schema)
+        size = max(_unpacked(metadata), rows * columns * _NUMBER_BYTES)
         if size > limit_mib * 2**20:
             raise refused(
                 f"unpacked it has {size / 2**20:,.0f} MiB; expected at most {limit_mib} MiB: thin it or split it"
             )
+        own = source.file.seek(0, 2)
+        if size > max(ALWAYS_MIB * 2**20, MOST_TIMES * own):
+            raise refused(
+                f"{rows:,} rows of {columns} columns in {own / 2**10:,.0f} KiB are {size / max(own, 1):,.0f} times its "
+                f"size unpacked; expected at most {MOST_TIMES} times, since readings do not repeat so"
+            )
         yield 1, schema.names
         batches = file.iter_batches(batch_size=_BATCH_ROWS, use_threads=False)
-        rows = (cells for batch in batches for cells in zip(*map(_cells, batch.columns), strict=True))
-        yield from ((line, list(cells)) for line, cells in enumerate(rows, 2))
+        filled = (cells for batch in batches for cells in zip(*map(_cells, batch.columns), strict=True))
+        yield from ((line, list(cells)) for line, cells in enumerate(filled, 2))
     except UnicodeDecodeError:
         raise refused("it holds text that is not UTF-8; write it again") from None
     except (pa.ArrowException, OSError) as error:

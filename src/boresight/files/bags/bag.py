@@ -76,6 +76,7 @@ def read_bag(path: Path, name: str, topics: Collection[str] = (), transforms: Co
         refused: list[str] = []
         for file in files:
             try:
+                tape.begin(file.stat().st_size)
                 read_storage(file, f"{name}/{file.name}" if path.is_dir() else name, tape)
             except TooMuch:
                 raise

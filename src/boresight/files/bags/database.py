@@ -5,12 +5,13 @@ from __future__ import annotations
 import sqlite3
 from collections.abc import Iterator
 from contextlib import closing
+from itertools import islice
 from pathlib import Path
 from shutil import copyfile
 from tempfile import TemporaryDirectory
 
 from boresight.errors import InputError
-from boresight.files.bags.tape import LARGEST_MESSAGE, Tape
+from boresight.files.bags.tape import LARGEST_MESSAGE, MOST_TOPICS, Tape, TooMuch
 from boresight.files.problems import printable
 
 _BESIDE = ("-wal", "-journal")
@@ -84,9 +85,12 @@ def _topics(connection: sqlite3.Connection, name: str, tape: Tape) -> dict[objec
                 )
             )
     topics: dict[object, str] = {}
-    for number, topic, kind, encoding in connection.execute("SELECT id, name, type, serialization_format FROM topics"):
+    rows = connection.execute("SELECT id, name, type, serialization_format FROM topics")
+    for number, topic, kind, encoding in islice(rows, MOST_TOPICS + 1):
         topics[number] = str(topic)
         tape.announce(str(topic), str(kind), str(encoding))
+    if next(rows, None) is not None:
+        raise TooMuch(f"{name}: there are more than {MOST_TOPICS:,} topics; record those of the arm alone")
     return topics
 
 
