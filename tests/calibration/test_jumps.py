@@ -1,10 +1,6 @@
 """Jumps between blocks of rows: found with their place and size, and not where there is none."""
 
-import os
-import subprocess
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -118,34 +114,3 @@ def test_jump_is_told_by_calibrate_and_gone_with_sessions():
     gap = found["sensor.bias[two]"].identified - found["sensor.bias[one]"].identified
     assert gap == pytest.approx(0.25, abs=1e-4)
     assert found["sensor.bias[one]"].nominal is None
-
-
-_DIGITS = """
-import sys
-from dataclasses import replace
-sys.path.insert(0, sys.argv[1])
-from rehearsed import ranger_cell
-from test_jumps import jumps_in, readings_of
-
-cell = ranger_cell(planes=3)
-readings = readings_of(cell, 400, 1)
-values = readings.values.copy()
-values[260:] += 4e-4
-(jump,) = jumps_in(cell, replace(readings, values=values))
-print(jump.size.hex(), jump.std.hex())
-"""
-
-
-def test_jumps_are_the_same_to_the_last_digit_on_any_number_of_threads():
-    here = str(Path(__file__).parent)
-    told = {
-        subprocess.run(
-            [sys.executable, "-c", _DIGITS, here],
-            env={**os.environ, "OPENBLAS_NUM_THREADS": threads, "OMP_NUM_THREADS": threads},
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout
-        for threads in ("1", "2")
-    }
-    assert len(told) == 1
