@@ -151,3 +151,86 @@ def test_repeats_of_one_posture_pass(tmp_path):
         lines.append(",".join(map(str, (*joints, *position))))
     (tmp_path / "positions.csv").write_text("\n".join(lines) + "\n")
     load_campaign(path)
+
+
+LINK = "  - {{name: {}, d: {}, a: {}, alpha: {}, limits: [-3, 3]}}"
+SLIDE = "  - {{name: {}, type: prismatic, d: {}, alpha: {}, limits: [{}, {}]}}"
+SMALL = [LINK.format("j1", 0.1, 0.1, 1.5708), LINK.format("j2", 0.0, 0.1, 0), LINK.format("j3", 0.05, 0.0, 1.5708)]
+ARMS = {
+    "small arm on 30 m": [SLIDE.format("rail", 0, 1.5708, 0, 30), *SMALL],
+    "its zero in the middle": [SLIDE.format("rail", 30, 1.5708, -30, 30), *SMALL],
+    "a part of the rail far out": [SLIDE.format("rail", 0, 1.5708, 40, 60), *SMALL],
+    "gantry": [SLIDE.format(n, 0, 1.5708, 0, most) for n, most in (("x", 40), ("y", 12), ("z", 3))],
+    "small gantry": [SLIDE.format(n, 0, 1.5708, 0, 0.05) for n in "xyz"],
+    "gantry with wrist": [
+        *(SLIDE.format(n, 0, 1.5708, 0, most) for n, most in (("x", 60), ("y", 20), ("z", 5))),
+        LINK.format("j1", 0.1, 0.0, 1.5708),
+        LINK.format("j2", 0.0, 0.05, 0),
+    ],
+    "SCARA with a long stroke": [
+        LINK.format("j1", 0.3, 0.3, 0),
+        LINK.format("j2", 0, 0.25, 0),
+        SLIDE.format("z", 0, 0, -4, 4),
+    ],
+    "0.1 m arm": [LINK.format("j1", 0.02, 0.04, 1.5708), LINK.format("j2", 0, 0.04, 0), LINK.format("j3", 0.01, 0, 0)],
+    "60 m crane": [
+        LINK.format("slew", 50, 0, 0),
+        SLIDE.format("trolley", 0, 1.5708, 2, 60),
+        SLIDE.format("hoist", 0, 0, 0, 50),
+    ],
+    "60 m boom": [
+        LINK.format("slew", 0, 0.5, 1.5708),
+        LINK.format("luff", 0, 60, 0),
+        SLIDE.format("hoist", 0, 0, 0, 45),
+    ],
+    "slide without limits": [SLIDE.format("rail", 0, 1.5708, -1e6, 1e6), *SMALL],
+}
+
+
+def write_arm(folder, joints, *, scale=1.0, ranges=1.0, column=None):
+    """A campaign of an arm with readings of a short-range sensor and of one that looks through the hall."""
+    (folder / "robot.yaml").write_text("name: arm\njoints:\n" + "\n".join(joints) + "\n")
+    (folder / "campaign.yaml").write_text(
+        "robot: robot.yaml\nsensor: {type: laser_ranger, noise_std: 1e-4}\nbase: {xyz: unknown, rpy: unknown}\n"
+        "targets: {deck: {type: plane, normal: [0, 0, 1], offset: 0}}\nobservations: observations.csv\n"
+    )
+    names = [re.search("name: ([a-z0-9]+)", joint)[1] for joint in joints]
+    highest = [min(float(joint.rstrip("]}").rpartition(",")[2]), 30.0) for joint in joints]
+    random, lines = np.random.default_rng(0), [",".join([*names, "range"])]
+    for _ in range(20):
+        q = random.uniform(0.1, 1.0, len(names)) * highest * np.where(np.array(names) == column, scale, 1.0)
+        lines.append(",".join(map(str, (*q, ranges * random.uniform(0.5, 1.0)))))
+    (folder / "observations.csv").write_text("\n".join(lines) + "\n")
+    return folder / "campaign.yaml"
+
+
+@pytest.mark.parametrize("ranges", [0.05, 20.0])
+@pytest.mark.parametrize("arm", ARMS)
+def test_small_arms_on_long_slides_pass(tmp_path, arm, ranges):
+    small = arm in ("small gantry", "0.1 m arm")
+    load_campaign(write_arm(tmp_path, ARMS[arm], ranges=ranges / 10 if small else ranges))
+
+
+def test_what_no_slide_explains_is_refused(tmp_path):
+    rail = SLIDE.format("rail", 0, 1.5708, 0, 30)
+    slips = {
+        r"j2\.a: got 431\.8 m, 1,\d\d\d times": [rail, SMALL[0], LINK.format("j2", 0, 431.8, 0), SMALL[2]],
+        r"rail\.d: got 30000 m": [SLIDE.format("rail", 30000, 1.5708, 0, 30), *SMALL],
+        r"make an arm that reaches .* are they in metres": [
+            SLIDE.format("rail", 0, 0, 0, 5e-3),
+            LINK.format("j1", 2e-4, 3e-4, 0),
+        ],
+    }
+    for words, joints in slips.items():
+        with pytest.raises(InputError, match=words):
+            load_campaign(write_arm(tmp_path, joints))
+
+
+def test_a_slide_in_millimetres_is_refused_by_its_limits(tmp_path):
+    path = write_arm(tmp_path, ARMS["small arm on 30 m"], scale=1e3, column="rail")
+    with pytest.raises(
+        InputError, match=r"joint rail reads up to \d+.* m, far beyond its limits 0 to 30 m, .*`rail \[mm\]`"
+    ):
+        load_campaign(path)
+    write_arm(tmp_path, ARMS["small arm on 30 m"], scale=1.5, column="rail")  # a careless limit
+    load_campaign(path)

@@ -16,10 +16,11 @@ from boresight.files.columns import clashes
 from boresight.files.documents import Document, read_document
 from boresight.files.equipment import frame_of, read_aims, read_targets, sensor_of
 from boresight.files.explaining import validated
+from boresight.files.extents import extent_of
 from boresight.files.observations import Observations, read_observations
 from boresight.files.patterns import Matcher
 from boresight.files.plausible_readings import readings_fault
-from boresight.files.plausible_units import check_arm, reach_of
+from boresight.files.plausible_units import check_arm
 from boresight.files.problems import Problems, listed, printable, shown
 from boresight.files.schemas import DEFAULT, CampaignEntry, DataEntry, PointEntry
 from boresight.files.sessions import ONLY, in_sessions, sessions_of, with_sessions
@@ -60,10 +61,10 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
         elif key == "observations" and need_readings:
             problems.add(f"{document.at(())}there are no readings; expected observations: observations.csv")
     problems.raise_if_any()
-    reach = reach_of(cell)
-    check_arm(cell, reach, robot.called, document.name, problems)
+    extent = extent_of(cell.arm, [part.readings.joints for part in data.values()])
+    check_arm(cell, extent, robot.called, document.name, problems)
     for key, part in data.items():
-        fault = readings_fault(cell, reach, part.readings, _unknown(entry), entry.units.value, robot.called.name)
+        fault = readings_fault(cell, extent, part.readings, _unknown(entry), entry.units.value, robot.called.name)
         if fault is not None and not problems:
             problems.add(f"{getattr(entry, key).name}: {fault}")
     problems.raise_if_any()

@@ -8,12 +8,14 @@ import numpy as np
 from jaxtyping import Float
 
 from boresight.arm import Arm
+from boresight.files.extents import extent_of
 from boresight.files.plausible_units import fits_as_degrees
 from boresight.files.problems import Problems
 from boresight.units import Units
 
 FAR, NEAR = 25.0, 5e-3
-"""Half of the positions are no more than so many times the arm's reach away, and some at least this share of it."""
+"""Half of the positions are no more than so many times the arm's reach away, and some at least this share of what its
+links reach."""
 
 
 def check_joints(
@@ -50,7 +52,7 @@ def check_positions(
     """Adds a fault where positions [m] are far beyond the arm's reach, or all next to its base."""
     away, reach = np.linalg.norm(positions, axis=1), arm.reach
     other = "mm" if units.length == "m" else "m"
-    if np.median(away) > FAR * reach or np.max(away) < NEAR * reach:
+    if np.median(away) > FAR * reach or np.max(away) < NEAR * extent_of(arm).links:
         problems.add(
             f"{name}: x, y, z: positions {np.median(away) / units.metres:.4g} {units.length} from the base of an arm "
             f"that reaches {reach / units.metres:.4g} {units.length} at most; if they are in {other}, say --length "

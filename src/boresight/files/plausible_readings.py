@@ -13,13 +13,15 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
+from boresight.files.extents import Extent
 from boresight.files.plausible_units import SMALLEST_ARM_M
 from boresight.geometry import Plane
 from boresight.sensing import Cell, DrawWire, LaserRanger, PlaneContact, Pose, Position, Readings
 from boresight.units import Units
 
-FARTHEST, NEAREST = 60.0, 2e-3
-"""Distances are not more than so many times the arm's reach, and not all of them less than so small a share of it."""
+FARTHEST, NEAREST, NEAREST_M = 60.0, 2e-3, 0.01
+"""Distances are not more than so many times the arm's reach, and not all of them less than so small a share of what its
+links reach, nor than this [m]: a slide or a boom may carry a sensor of short range far."""
 
 OFF = 25.0
 """Nominal predictions are not so many times too large or too small."""
@@ -41,13 +43,13 @@ FITTING = 0.1
 
 
 def readings_fault(
-    cell: Cell, reach: float, readings: Readings, unknown: frozenset[str], units: Units, robot: str
+    cell: Cell, extent: Extent, readings: Readings, unknown: frozenset[str], units: Units, robot: str
 ) -> str | None:
     """Returns what is wrong where readings cannot be meant in their units, a sentence that begins with the columns.
 
     Args:
         cell: the nominal cell [m, rad], unknown frames at neutral values.
-        reach: of its arm [m].
+        extent: of its arm.
         readings: of one file [m, rad].
         unknown: parameters of frames that nobody has measured.
         units: that the file was read in.
@@ -57,11 +59,11 @@ def readings_fault(
     if not readings.measured:
         return None
     with np.errstate(all="ignore"):
-        return next(_faults(cell, max(reach, SMALLEST_ARM_M), readings.chosen(rows), unknown, units, robot), None)
+        return next(_faults(cell, extent, readings.chosen(rows), unknown, units, robot), None)
 
 
 def _faults(
-    cell: Cell, reach: float, readings: Readings, unknown: frozenset[str], units: Units, robot: str
+    cell: Cell, extent: Extent, readings: Readings, unknown: frozenset[str], units: Units, robot: str
 ) -> Iterator[str]:
     for place in np.unique(readings.target).tolist():
         aim, own = cell.aims[place], readings.chosen(readings.target == place)
@@ -70,23 +72,25 @@ def _faults(
         columns = ", ".join(sensor.columns[:3])
         yield from _radians(cell, own, columns, known, units)
         if isinstance(sensor, LaserRanger | DrawWire):
-            yield from _distances(own.values[:, 0], columns, reach, units)
+            yield from _distances(own.values[:, 0], columns, extent, units)
         if isinstance(sensor, Position | Pose):
-            yield from _positions(cell, own, columns, reach, units, robot)
+            yield from _positions(cell, own, columns, extent, units, robot)
         if known and aim.target is not None and not any(name.startswith(f"{aim.target}.") for name in unknown):
-            yield from _target(cell, own, aim.target, reach, units)
+            yield from _target(cell, own, aim.target, extent.whole, units)
 
 
-def _distances(values: Float[np.ndarray, " rows"], columns: str, reach: float, units: Units) -> Iterator[str]:
-    if np.quantile(values, 0.9) > FARTHEST * reach or 0.0 < np.max(values) < NEAREST * reach:
+def _distances(values: Float[np.ndarray, " rows"], columns: str, extent: Extent, units: Units) -> Iterator[str]:
+    far = np.quantile(values, 0.9) > FARTHEST * max(extent.whole, SMALLEST_ARM_M)
+    if far or 0.0 < np.max(values) < min(NEAREST * extent.links, NEAREST_M):
         yield (
-            f"{columns}: got {_span(values, units)} before an arm that reaches {reach / units.metres:.4g} "
+            f"{columns}: got {_span(values, units)} before an arm that reaches {extent.whole / units.metres:.4g} "
             f"{units.length}; is it in another unit than the campaign's `units:`?"
         )
 
 
-def _positions(cell: Cell, readings: Readings, columns: str, reach: float, units: Units, robot: str) -> Iterator[str]:
+def _positions(cell: Cell, readings: Readings, columns: str, extent: Extent, units: Units, robot: str) -> Iterator[str]:
     """Yields a fault where positions are spread far more, or far less, than the arm can have moved its tool."""
+    reach = extent.links if extent.links >= SMALLEST_ARM_M else extent.whole
     theirs, ours = _spread(readings.values[:, :3]), _spread(_ends(cell, readings))
     if max(theirs, ours) > MOVED * reach and not ours / OFF < theirs < ours * OFF:
         yield (

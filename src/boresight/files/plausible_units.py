@@ -14,15 +14,17 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from boresight.files.extents import Extent
 from boresight.files.problems import Problems
 from boresight.sensing import Cell
 from boresight.units import Units
 
 SMALLEST_ARM_M, LARGEST_ARM_M = 0.01, 90.0
-"""Reach [m] of the arms that are believed."""
+"""Least reach [m] of the arms that are believed, slides and all, and greatest of their links alone."""
 
 ALONE_M, ALONE = 25.0, 30.0
-"""A link longer than this [m], and than so many times all others together, is in another unit."""
+"""A link longer than this [m], and than so many times all others and the slides' travel together, is in another
+unit."""
 
 TOOL = 20.0
 """A tool is not longer than so many times the arm's reach."""
@@ -32,9 +34,6 @@ TURN = 2.0 * math.pi + 0.02
 
 RIGHT_ANGLES, NEARLY = (0.5 * math.pi, math.pi), 2e-4
 """Degrees within this share of 1.5708 or 3.1416 are right angles in radians."""
-
-DRAWN = 200
-"""Configurations in which the arm's reach is looked for."""
 
 NAMES = {"m": "metres", "mm": "millimetres", "rad": "radians", "deg": "degrees"}
 
@@ -52,37 +51,25 @@ class Robot:
     units: Units | None
 
 
-def check_arm(cell: Cell, reach: float, robot: Robot, campaign: str, problems: Problems) -> None:
+def check_arm(cell: Cell, extent: Extent, robot: Robot, campaign: str, problems: Problems) -> None:
     """Adds a fault where the arm's or the tool's numbers cannot be meant in their units.
 
     Args:
         cell: the nominal cell [m, rad].
-        reach: of its arm [m], `reach_of`.
+        extent: of its arm.
         robot: its file.
         campaign: what the user calls the campaign's file.
         problems: where faults are added.
     """
-    angle, length = _angle_fault(cell, robot), _length_fault(cell, reach, robot)
+    angle, length = _angle_fault(cell, robot), _length_fault(cell, extent, robot)
     problems.extend(fault for fault in (angle, length) if fault is not None)
     for name, frame in cell.mounts.items() if length is None else ():
         size = math.hypot(*frame.xyz)
-        if size > max(TOOL * reach, 1.0):
+        if size > max(TOOL * extent.whole, 1.0):
             problems.add(
                 f"{campaign}: {name}.xyz: the sensor sits {size:.4g} m from the flange of an arm that reaches "
-                f"{reach:.3g} m; is it in another unit than `units:` says?"
+                f"{extent.whole:.3g} m; is it in another unit than `units:` says?"
             )
-
-
-def reach_of(cell: Cell) -> float:
-    """Returns how far [m] the flange gets from the arm's base, prismatic joints drawn in, over drawn configurations."""
-    driven = cell.arm.driven
-    random = np.random.Generator(np.random.Philox(0))
-    joints = random.uniform(-math.pi, math.pi, (DRAWN, len(driven)))
-    for place, joint in enumerate(driven):
-        if joint.type == "prismatic":
-            joints[:, place] = np.clip(0.0, *joint.limits)
-    with np.errstate(all="ignore"):
-        return float(np.max(np.linalg.norm(cell.arm.chain.poses(joints)[:, :3, 3], axis=1), initial=0.0))
 
 
 def fits_as_degrees(joints: Float[np.ndarray, "rows joints"], limits: Float[np.ndarray, "joints 2"]) -> bool:
@@ -116,13 +103,15 @@ def _angle_fault(cell: Cell, robot: Robot) -> str | None:
     return None
 
 
-def _length_fault(cell: Cell, reach: float, robot: Robot) -> str | None:
+def _length_fault(cell: Cell, extent: Extent, robot: Robot) -> str | None:
     """Returns what is wrong with the arm's lengths, if they cannot be meant in their unit."""
     units = robot.units or Units()
     links = dict(_links(cell))
     longest = max(links, key=lambda name: links[name])
     others = sum(links.values()) - links[longest]
-    if SMALLEST_ARM_M <= reach <= LARGEST_ARM_M and not (reach > ALONE_M and links[longest] > ALONE * others):
+    # A boom or an offset as long as the travel of the slides beside it is what cranes and rails have.
+    alone = others > 0.0 and links[longest] > max(ALONE_M, ALONE * (others + extent.travel))
+    if extent.whole >= SMALLEST_ARM_M and extent.links <= LARGEST_ARM_M and not alone:
         return None
     if links[longest] > max(ALONE_M, ALONE * others):
         return (
@@ -130,7 +119,8 @@ def _length_fault(cell: Cell, reach: float, robot: Robot) -> str | None:
             f"{links[longest] / max(others, 1e-3):,.0f} times all other links together; is it in another unit than the "
             "rest?"
         )
-    other = "mm" if reach > 1.0 else "m"
+    large = extent.links > LARGEST_ARM_M
+    reach, other = (extent.links, "mm") if large else (extent.whole, "m")
     return (
         f"{robot.name}: d and a, read in {NAMES[units.length]}, make an arm that reaches {reach:.4g} m; are they in "
         f"{NAMES[other]}? {_say(robot, f'length: {other}')}"

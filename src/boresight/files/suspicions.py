@@ -22,13 +22,17 @@ _ENOUGH_ROWS = 10
 
 _LINES_NAMED = 6
 
+_FAR_BEYOND = 20.0
+"""A slide's reading beyond its limits by so many times their size [1] is no careless limit."""
+
 
 def suspicions(readings: Readings, cell: Cell, units: Units, name: str) -> tuple[str, ...]:
     """Returns what looks odd about the readings of a file, a sentence each.
 
     Raises:
-        InputError: joints are in degrees where radians were said.
+        InputError: joints are in degrees where radians were said, or a slide's are a thousandfold.
     """
+    _check_slides(readings, cell, units, name)
     copies = _copies(readings, name)
     angles = _wrong_angles(readings, cell, units, name)
     # In the wrong unit every joint is beyond its limits: one sentence says it better than six.
@@ -97,6 +101,22 @@ def _wrong_angles(readings: Readings, cell: Cell, units: Units, name: str) -> li
             "if the file is in radians, say units: {angle: rad} in the campaign"
         ]
     return []
+
+
+def _check_slides(readings: Readings, cell: Cell, units: Units, name: str) -> None:
+    """Raises an `InputError` where a slide is far beyond its limits, and within them were it in millimetres."""
+    within = beyond_limits(1e-3 * readings.joints, cell.arm.limits).max(axis=0) <= 0.0
+    for place, joint in enumerate(cell.arm.driven):
+        size = float(np.abs(readings.joints[:, place]).max())
+        if joint.type == "prismatic" and within[place] and size > _FAR_BEYOND * max(map(abs, joint.limits)):
+            low, high = (limit / units.metres for limit in joint.limits)
+            raise InputError(
+                printable(
+                    f"{name}: joint {joint.name} reads up to {size / units.metres:.6g} {units.length}, far beyond its "
+                    f"limits {low:.6g} to {high:.6g} {units.length}, and a thousandth of it is within them: is the "
+                    f"column in another unit? Call it `{joint.name} [mm]` if it is in millimetres"
+                )
+            )
 
 
 def _beyond_limits(readings: Readings, cell: Cell, units: Units, name: str) -> list[str]:
