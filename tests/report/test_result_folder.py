@@ -91,7 +91,11 @@ def test_ctrl_c_waits_until_all_files_are_there(tmp_path):
             swap_in(staging, tmp_path, ["one", "two"])
             done.append((tmp_path / "two").exists())
 
-    with pytest.raises(KeyboardInterrupt):
-        interrupted()
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            interrupted()
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert done == [True]
     assert tmp_path / "out" in written()
