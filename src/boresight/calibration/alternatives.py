@@ -6,6 +6,7 @@ Each of `slips` is made undone, and told where the readings then fit.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from boresight.calibration.problem import MISSED_M, Problem
 from boresight.calibration.robust import Fit
 from boresight.calibration.slips import slips
 from boresight.calibration.thinning import thinned
+from boresight.calibration.unit_slips import unit_slips
 from boresight.errors import InputError
 from boresight.inference.score_tests import QUADRATIC, fit_robustly
 from boresight.sensing import Cell
@@ -24,13 +26,14 @@ from boresight.sensing.linear import slopes_of
 ROWS = 300
 """Rows that stand for many."""
 
-NEARER = 0.3
-"""An alternative is fitted where the nominal errors' median falls to this share, or as many more rows fit."""
+NEARER = 0.8
+"""An alternative is fitted where nominal errors typically fall to this share: a slip of 60 mm is no larger than what
+wrong links leave."""
 
 BETTER = 0.25
 """It explains the readings where what it leaves falls to this share."""
 
-FITTED, STEPS = 4, 8
+FITTED, STEPS = 6, 8
 FEWEST = 3
 SETTLED = 0.01
 
@@ -73,7 +76,9 @@ def find_alternatives(found: Fit, nominal: Cell, campaign: Campaign, seed: int) 
     problem = problem.on(thinned(problem.readings, ROWS))
     before, cost = _typical(problem), _fitted_cost(problem)
     promising = []
-    for effect, words, cell, readings in slips(nominal, problem.readings):
+    for effect, words, cell, readings in chain(
+        slips(nominal, problem.readings), unit_slips(nominal, problem.readings, campaign)
+    ):
         trial = _placed(replace(problem, cell=cell, readings=readings), campaign, seed)
         if trial is not None and (typical := _typical(trial)) <= NEARER * before:
             promising.append((typical, effect, words, trial))
@@ -104,21 +109,25 @@ def _typical(problem: Problem) -> float:
 
 
 def _fitted_cost(problem: Problem) -> float:
-    """Returns what a robust fit leaves, over the stated variances, gross residuals by their size."""
+    """Returns what a robust fit within bounds leaves, over the stated variances, gross residuals by their size."""
     x, read, std = np.zeros(len(problem.names)), problem.readings.read, problem.readings.std
-    precision, cost = 1.0 / problem.prior_std**2, np.inf
+    precision, best = 1.0 / problem.prior_std**2, np.inf
     for _ in range(STEPS):
         errors = problem.errors(x)
-        missed = read & ~np.isfinite(errors)
-        seen = read & ~missed
+        seen = read & np.isfinite(errors)
+        now = _cost(errors[seen] / std[seen], precision * x**2) + _cost(MISSED_M / std[read & ~seen])
+        if now > (1.0 - SETTLED) * best:
+            break
+        best = now
         columns = (slopes_of(problem.model, x, problem.readings) / std[:, :, None])[seen]
         step = fit_robustly(columns, -errors[seen] / std[seen], precision, x)
-        far = MISSED_M / std[missed]
-        now = step.cost + float(np.sum(QUADRATIC * (2.0 * far - QUADRATIC)))
-        if now > (1.0 - SETTLED) * cost:
-            break
-        cost, x = now, np.clip(x + step.step, -problem.half_width, problem.half_width)
-    return min(cost, now)
+        x = np.clip(x + step.step, -problem.half_width, problem.half_width)
+    return float(min(best, now))
+
+
+def _cost(ratio: np.ndarray, of_priors: np.ndarray | float = 0.0) -> float:
+    size = np.abs(ratio)
+    return float(np.sum(np.minimum(size, QUADRATIC) * (2.0 * size - np.minimum(size, QUADRATIC))) + np.sum(of_priors))
 
 
 def _ratio(cost: float, problem: Problem) -> float:

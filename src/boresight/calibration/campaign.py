@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from boresight.arm.serial import SerialChain
+from boresight.calibration.written import Written
 from boresight.sensing import Cell, Readings
 from boresight.units import Quantity
 
@@ -93,6 +94,7 @@ class Campaign:
         notes: choices made in reading them that a person should know.
         inputs: SHA-256 by file name.
         robot_file: the URDF the arm was read from, if it was.
+        written: in which files its numbers stand, for messages.
     """
 
     name: str
@@ -113,6 +115,7 @@ class Campaign:
     notes: tuple[str, ...] = ()
     inputs: Mapping[str, str] = field(default_factory=dict)
     robot_file: RobotFile | None = None
+    written: Written = Written()
 
     @property
     def sought(self) -> frozenset[str]:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from boresight.arm import HARMONICS, SAG, Arm
 from boresight.calibration.campaign import Campaign, Freedom
+from boresight.calibration.written import Written
 from boresight.errors import InputError
 from boresight.files.bag_observations import read_bag_observations
 from boresight.files.bags.storages import is_bag
@@ -22,7 +23,7 @@ from boresight.files.patterns import Matcher
 from boresight.files.plausible_readings import readings_fault
 from boresight.files.plausible_units import check_arm
 from boresight.files.problems import Problems, listed, printable, shown
-from boresight.files.schemas import DEFAULT, CampaignEntry, DataEntry, PointEntry
+from boresight.files.schemas import DEFAULT, CampaignEntry, DataEntry, PlaneEntry, PointEntry
 from boresight.files.sessions import ONLY, in_sessions, sessions_of, with_sessions
 from boresight.files.short_lengths import without_short_lengths
 from boresight.files.stated_priors import read_joint_noise, read_priors, with_flatness
@@ -101,7 +102,15 @@ def load_campaign(path: Path | str, *, need_readings: bool = False) -> Campaign:
         notes=(*choice.notes, *robot.notes, *(note for part in data.values() for note in part.notes)),
         inputs=inputs,
         robot_file=robot.file,
+        written=_written(document, entry, robot),
     )
+
+
+def _written(document: Document, entry: CampaignEntry, robot: RobotOf) -> Written:
+    offsets = {name: target.offset for name, target in entry.targets.items() if isinstance(target, PlaneEntry)}
+    observations = "" if entry.observations is None else entry.observations.name
+    called = robot.called
+    return Written(called.name, document.name, observations, called.units or Units(), entry.units.value, offsets)
 
 
 def cell_of(document: Document, entry: CampaignEntry, robot: RobotOf, problems: Problems) -> Cell:
